@@ -1,0 +1,66 @@
+/* One frame from end to end: a garment on a moving body. Read frame.c from top to bottom and
+   you know the method. */
+#ifndef DRESS_FRAME_H
+#define DRESS_FRAME_H
+
+#include "garment/garment.h"
+#include "geometry/crossing.h"
+
+typedef enum { SPLIT_ADAPTIVE, SPLIT_UNIFORM, SPLIT_NONE } SplitRule;
+
+/* Zero is the default. */
+typedef struct {
+    SplitRule split;
+    int detail;           /* facets per side of a root patch; 0 = the garment's, else 8 */
+    int depth;            /* levels of splitting, 1..3; 0 = 2 */
+    bool fixed_topology;  /* one grid over every root patch in every frame */
+    double unit;          /* output units per metre for snapping; 0 = 1 */
+} DressOptions;
+
+/* What happened in one frame, a row of stats.csv. Lengths in metres. */
+typedef struct {
+    int nodes, leaves, depth;         /* of the classification by the paper's rule */
+    int cells;                        /* leaves after the solver refined further */
+    int vertices, triangles;          /* of the written mesh */
+    long long pairs_all, pairs_tested;/* edge-triangle pairs of all tests of the frame */
+    int hits_before;                  /* body edges through the global shape */
+    int sweeps, active;               /* solver sweeps, displaced vertices */
+    double displacement;              /* largest move from the global to the final shape */
+    int residual_edges, residual_cloth, inside; /* against the garment's own colliders */
+    double deepest;                   /* of the inside vertices */
+    int limb_edges, limb_cloth, limb_inside;    /* against all other parts of the body */
+    int pinched;                      /* vertices where the body leaves no room */
+    bool capped;                      /* a cap (sweeps, rounds, displacement) was reached */
+    bool restarted;                   /* carried state dropped: jump in the motion */
+    double global_s, test_s, push_s, mesh_s; /* seconds */
+} FrameStats;
+
+/* The posed body of one frame, shared by all garments. */
+typedef struct {
+    const Body *body;
+    Pose pose;
+    Vec3 *position, *normal;     /* skin.nvertices; positions snapped to the output's precision */
+    CrossingSet edges, triangles;
+} BodyFrame;
+
+MUST_CHECK bool body_frame_init(BodyFrame *f, const Body *body, Arena *arena, Error *e);
+/* unit: output units per metre, for snapping. Allocates nothing. */
+void body_frame_pose(BodyFrame *f, const Pose *pose, double unit);
+
+/* A garment on a figure with the state that is carried from frame to frame. */
+typedef struct Dresser Dresser;
+
+/* Fits the garment to the figure and its body and takes all the memory that frames need. */
+MUST_CHECK bool dresser_open(const Garment *garment, const Figure *figure, const Body *body,
+                             const DressOptions *options, Arena *arena, Dresser **out, Error *e);
+
+/* Dresses one frame. dt: seconds since the last one; restart: forget the carried state (first
+   frame, teleport). *mesh is filled with arrays of the dresser, valid until the next call:
+   metres, snapped, with normals, u, w and a group for each panel. Allocates nothing. */
+void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, Mesh *mesh, FrameStats *stats);
+
+/* Facts for `inspect` and the summary. */
+typedef struct { int patches, panels, seams, openings; unsigned own_parts; } DresserInfo;
+DresserInfo dresser_info(const Dresser *d);
+
+#endif

@@ -1,0 +1,90 @@
+/* The body: generalised cones along the bones, as in the paper. Each part is a stack of
+   sections; a section is two half-ellipses (front and back of different depth) that meet at
+   the sides. Skin: bicubic Bezier patches, four quarters round, one row between sections.
+   The analytic inside test uses the same interpolation as the patches.
+
+   Part frame: origin at the bone's start, y along the bone from start (at = 0) to end
+   (at = 1); for torso, neck and head y is canonical up, x left, z forward. For limbs y points
+   down the limb, z forward as far as perpendicular to y allows, x = y cross z. For feet y
+   points from heel to toe and z is up. */
+#ifndef FIGURE_BODY_H
+#define FIGURE_BODY_H
+
+#include "base/text.h"
+#include "figure/figure.h"
+#include "geometry/bezier.h"
+#include "geometry/mesh.h"
+
+/* Lengths in metres. at: place along the bone, 0 = start, 1 = end; may lie outside. */
+typedef struct {
+    double at;
+    double x, z;         /* centre of the section in the part frame */
+    double side;         /* half width along x */
+    double front, back;  /* half depths towards +z and -z */
+} Section;
+
+enum { SECTIONS_MAX = 24, BODY_PARTS_MAX = 24 };
+
+/* A part as the body file gives it, for the reference figure. */
+typedef struct {
+    Role role;
+    int nsections;
+    Section section[SECTIONS_MAX];
+} BodyPartSpec;
+typedef struct {
+    char name[64];
+    int nparts;
+    BodyPartSpec part[BODY_PARTS_MAX];
+} BodySpec;
+
+/* The compiled-in adult. */
+const BodySpec *body_default(void);
+
+/* Text format, documented in garments/README.md. Reading what was written gives the same. */
+MUST_CHECK bool body_read(const char *path, Arena *scratch, BodySpec *out, Error *e);
+MUST_CHECK bool body_parse(const Text *text, BodySpec *out, Error *e);
+bool body_write(const BodySpec *body, FILE *out);
+
+/* A part sized to a figure. */
+typedef struct {
+    Role role;
+    Rigid frame;            /* part frame -> canonical stance */
+    double length;          /* of the bone, metres */
+    int nsections;
+    Section section[SECTIONS_MAX];       /* metres; `at` in metres along y, caps included */
+    double slope[SECTIONS_MAX][5];       /* d/dy of x, z, side, front, back (monotone cubic) */
+    double low, high;       /* y range, with the end caps */
+    double reach;           /* largest distance of the surface from the y axis */
+    int first_vertex, nvertices, first_triangle, ntriangles, first_edge, nedges;
+} BodyPart;
+
+typedef struct {
+    int nparts;
+    BodyPart part[BODY_PARTS_MAX];
+    int of_role[ROLE_COUNT];  /* part index or -1 */
+    Mesh skin;                /* canonical stance; groups are parts, named by role */
+    int npatches;
+    Patch *patch;             /* skin patches, canonical stance */
+    double scale;             /* girth of this figure against the reference */
+    double height;            /* of the figure */
+} Body;
+
+/* Sizes the body to a figure: lengths follow its bones, girths its height and build. detail:
+   number of facets round a section, a multiple of 4 (16 gives about 8,000 triangles). Closed
+   shells, one for each part, no degenerate triangles. Memory from arena. */
+MUST_CHECK bool body_fit(const BodySpec *spec, const Figure *figure, int detail, Arena *arena, Body *out, Error *e);
+
+/* Vertices (skin.nvertices) of the skin in a pose, world frame. normals may be NULL. */
+void body_pose(const Body *b, const Pose *pose, Vec3 *positions, Vec3 *normals);
+
+/* Signed distance (metres, negative inside) of point p, in the PART FRAME, from a part's
+   surface, first order (METHOD section 3): exact in sign, good near the surface. *normal, if
+   not NULL, gets the outward unit normal in the part frame. Beyond `far` metres it may
+   return any value >= far that is not larger than the true distance, without a normal. */
+double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal);
+
+/* The section of a part at `at` bone lengths from its start, in metres (centre, half sizes),
+   clamped to the part's range. */
+Section body_section(const BodyPart *part, double at);
+
+#endif

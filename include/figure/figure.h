@@ -1,0 +1,56 @@
+/* The canonical human: every skeleton family is translated, once, into the same figure.
+
+   Canonical frame: metres, Y up, facing +Z, +X is the figure's LEFT, the floor under it is
+   y = 0, the hip joints stand at x = +-hip, z = 0. Canonical stance: legs straight down,
+   arms straight, 45 degrees out and down (A-pose) in the plane of the shoulders, feet
+   pointing along +Z. Body and garments are written for this figure and know nothing of files. */
+#ifndef FIGURE_FIGURE_H
+#define FIGURE_FIGURE_H
+
+#include "figure/roles.h"
+
+/* A figure has all ROLE_COUNT bones; those that the skeleton lacks follow a neighbour. */
+typedef struct {
+    double height;             /* stature, metres */
+    double unit;               /* metres per file unit */
+    const char *unit_name;     /* "cm", "inch", ... or "unknown" */
+    char up;                   /* up axis of the motion: 'x', 'y', 'z'; upper case = negative */
+    Mat3 upright;              /* file axes -> Y up */
+    Vec3 start[ROLE_COUNT];    /* where each bone begins in the canonical stance */
+    Vec3 end[ROLE_COUNT];      /* where it ends (the next joint, or the tip) */
+    Roles roles;
+    Mat3 bind[ROLE_COUNT];     /* private: joint frame <- canonical, for bones with a frame */
+    const char *rest;          /* how the bind was found, for `inspect`: "T-pose offsets", ... */
+} Figure;
+
+/* Rigid transforms canonical stance -> world (metres, Y up), one for each role bone. */
+typedef struct { Rigid bone[ROLE_COUNT]; } Pose;
+
+/* Zero is the default. */
+typedef struct {
+    double unit;   /* > 0: metres per file unit */
+    double scale;  /* > 0: multiplies the result's size */
+    char up;       /* 'x', 'y', 'z', upper case for negative; 0: found from the motion */
+} FigureOptions;
+
+/* The reference adult that body and garment files are written for: 1.70 m. */
+Figure figure_reference(void);
+
+/* Builds the figure of a motion: unit, up axis, bone lengths and bind, from a sample of its
+   frames. Oddities go to notes. */
+MUST_CHECK bool figure_build(const Motion *m, const Roles *roles, const FigureOptions *options, Arena *scratch,
+                             Notes *notes, Figure *out, Error *e);
+
+/* The pose for the joints' world transforms (file units) of one frame. Limbs turn by the
+   smallest rotation from their parent's frame (no twist); pelvis, chest, head and feet
+   follow their joints; the spine stands half-way between pelvis and chest. */
+void figure_pose(const Figure *f, const Rigid *world, Pose *out);
+
+/* The pose in which every bone is where it stands in the canonical stance. */
+Pose figure_rest_pose(void);
+
+/* How far two poses are apart for a body dt seconds later: the largest speed of a bone end in
+   heights a second. Used to find T-pose first frames and teleports (DEFECTS 25, 26). */
+double figure_speed(const Figure *f, const Pose *a, const Pose *b, double dt);
+
+#endif

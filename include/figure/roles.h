@@ -1,0 +1,33 @@
+/* Which joint plays which bone of a human. */
+#ifndef FIGURE_ROLES_H
+#define FIGURE_ROLES_H
+
+#include "motion/motion.h"
+
+typedef enum {
+    ROLE_PELVIS, ROLE_SPINE, ROLE_CHEST, ROLE_NECK, ROLE_HEAD,
+    ROLE_LEFT_CLAVICLE, ROLE_LEFT_UPPER_ARM, ROLE_LEFT_FOREARM, ROLE_LEFT_HAND,
+    ROLE_RIGHT_CLAVICLE, ROLE_RIGHT_UPPER_ARM, ROLE_RIGHT_FOREARM, ROLE_RIGHT_HAND,
+    ROLE_LEFT_THIGH, ROLE_LEFT_SHIN, ROLE_LEFT_FOOT, ROLE_LEFT_TOE,
+    ROLE_RIGHT_THIGH, ROLE_RIGHT_SHIN, ROLE_RIGHT_FOOT, ROLE_RIGHT_TOE,
+    ROLE_COUNT
+} Role;
+
+/* "pelvis", "left_upper_arm", ... */
+const char *role_name(Role role);
+
+/* The role of that name (length bytes), or ROLE_COUNT. */
+Role role_find(const char *name, int length);
+
+/* joint[role]: the joint whose rotation moves that bone and at whose origin it begins; -1 =
+   the skeleton has none. Pelvis, chest, and on both sides upper arm, forearm, thigh and shin
+   are always there after a success. */
+typedef struct { int joint[ROLE_COUNT]; } Roles;
+
+/* Finds the roles by names and, where names do not settle it, by topology and geometry of
+   some poses of the motion. ERR_INPUT with the list of missing roles where it is no human.
+   roles_file may be NULL, else lines `role = joint` that win over everything found (the joint
+   is the rest of the line; `none` removes a role). */
+MUST_CHECK bool roles_read(const Motion *m, const char *roles_file, Arena *scratch, Notes *notes, Roles *out, Error *e);
+
+#endif

@@ -1,0 +1,46 @@
+/* Which of many segments cross which of many triangles: culled by boxes of boxes, decided
+   exactly, counted. The one place where edge-triangle pairs are enumerated. */
+#ifndef GEOMETRY_CROSSING_H
+#define GEOMETRY_CROSSING_H
+
+#include "base/arena.h"
+#include "geometry/mesh.h"
+
+typedef struct { int edge, triangle; } Crossing;
+
+typedef struct {
+    long long pairs_all;    /* segments x triangles: what a test of all pairs costs */
+    long long pairs_tested; /* pairs whose boxes overlap, before any numeric filter; the same
+                               on every machine */
+    int hits;               /* pairs that intersect (predicate_segment_triangle) */
+} CrossingCount;
+
+/* Boxes over one set of segments or triangles, made for repeated queries. Memory is taken at
+   crossing_reserve and kept; building allocates nothing. Private inside. */
+typedef struct {
+    int capacity, count;  /* items */
+    const Vec3 *position; /* borrowed: must stay as it is until the next build */
+    const int *index;     /* per item: 2 (segments) or 3 (triangles) vertex indices */
+    int corners;          /* 2 or 3 */
+    const int *order;     /* item i of the boxes is index[corners * order[i]]; NULL = in order */
+    float *box[6];        /* per item, lows then highs, rounded outwards */
+    float *tile[6];       /* per 16 items */
+} CrossingSet;
+
+MUST_CHECK bool crossing_reserve(CrossingSet *set, int capacity, Arena *arena, Error *e);
+
+/* Boxes over the segments edge[0..n-1] (or triangles) whose vertices are in position. Items
+   that follow each other in the array should lie near each other: 16 share a box.
+   n <= capacity. order may be NULL. */
+void crossing_build_edges(CrossingSet *set, const Vec3 *position, const Edge *edge, int n, const int *order);
+void crossing_build_triangles(CrossingSet *set, const Vec3 *position, const Triangle *triangle, int n, const int *order);
+
+/* Finds every pair that intersects, in a fixed order (by tile, then item). Writes the first
+   `capacity` to out, counts all; adds to *count. Returns how many were written. */
+int crossing_find(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
+                  CrossingCount *count);
+
+/* Is there any? Stops at the first; adds what it tested to *count. */
+bool crossing_any(const CrossingSet *edges, const CrossingSet *triangles, CrossingCount *count);
+
+#endif

@@ -1,0 +1,35 @@
+/* A triangle mesh as plain arrays. Triangles are counter-clockwise seen from outside. */
+#ifndef GEOMETRY_MESH_H
+#define GEOMETRY_MESH_H
+
+#include <stdint.h>
+
+#include "base/arena.h"
+#include "geometry/vec.h"
+
+typedef struct { int v[3]; } Triangle;
+typedef struct { int v[2]; } Edge; /* v[0] < v[1] */
+
+/* Triangles first..first+count-1 belong to the group. */
+typedef struct { const char *name; int first, count; } MeshGroup;
+
+/* Arrays belong to the arena they were made in. normal (unit, outward), u and w (patch
+   parameters in [0, 1]) may be NULL. edge lists each undirected edge once. */
+typedef struct {
+    int nvertices, ntriangles, nedges, ngroups;
+    Vec3 *position, *normal;
+    double *u, *w;
+    Triangle *triangle;
+    Edge *edge;
+    MeshGroup *group;
+} Mesh;
+
+/* What the text "%.6f" of x, read back, is worth: the double nearest to round(x * 1e6) / 1e6
+   (for |x| < 1e9; never -0). */
+double mesh_snap(double x);
+
+/* Fills mesh->edge and nedges from the triangles, each undirected edge once, in order of
+   first appearance. */
+MUST_CHECK bool mesh_find_edges(Mesh *mesh, Arena *arena, Error *e);
+
+#endif

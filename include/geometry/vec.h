@@ -1,0 +1,118 @@
+/* Vectors, rotations and boxes, by value. Column vectors; Mat3 stores rows. */
+#ifndef GEOMETRY_VEC_H
+#define GEOMETRY_VEC_H
+
+#include <math.h>
+#include <stdbool.h>
+
+typedef struct { double x, y, z; } Vec3;
+typedef struct { Vec3 r[3]; } Mat3;            /* rows */
+typedef struct { Mat3 r; Vec3 t; } Rigid;      /* p' = r p + t */
+typedef struct { double w, x, y, z; } Quat;    /* unit quaternion, w real */
+typedef struct { Vec3 low, high; } Box;
+
+static inline Vec3 vec(double x, double y, double z) { return (Vec3){x, y, z}; }
+static inline Vec3 vec_add(Vec3 a, Vec3 b) { return vec(a.x + b.x, a.y + b.y, a.z + b.z); }
+static inline Vec3 vec_sub(Vec3 a, Vec3 b) { return vec(a.x - b.x, a.y - b.y, a.z - b.z); }
+static inline Vec3 vec_scale(Vec3 a, double s) { return vec(a.x * s, a.y * s, a.z * s); }
+/* a + s b */
+static inline Vec3 vec_mad(Vec3 a, Vec3 b, double s) { return vec(a.x + b.x * s, a.y + b.y * s, a.z + b.z * s); }
+static inline Vec3 vec_lerp(Vec3 a, Vec3 b, double t) { return vec(a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t); }
+static inline Vec3 vec_mid(Vec3 a, Vec3 b) { return vec(0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z)); }
+static inline double vec_dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline Vec3 vec_cross(Vec3 a, Vec3 b) { return vec(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
+static inline double vec_len(Vec3 a) { return sqrt(vec_dot(a, a)); }
+static inline double vec_dist(Vec3 a, Vec3 b) { return vec_len(vec_sub(a, b)); }
+/* Unit vector; `fallback` where a has no direction. */
+static inline Vec3 vec_unit_or(Vec3 a, Vec3 fallback) {
+    double n = vec_len(a);
+    return n > 1e-300 ? vec_scale(a, 1.0 / n) : fallback;
+}
+static inline bool vec_finite(Vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
+
+static inline Mat3 mat_identity(void) { return (Mat3){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; }
+static inline Vec3 mat_apply(Mat3 m, Vec3 v) { return vec(vec_dot(m.r[0], v), vec_dot(m.r[1], v), vec_dot(m.r[2], v)); }
+static inline Mat3 mat_transpose(Mat3 m) {
+    return (Mat3){{{m.r[0].x, m.r[1].x, m.r[2].x}, {m.r[0].y, m.r[1].y, m.r[2].y}, {m.r[0].z, m.r[1].z, m.r[2].z}}};
+}
+static inline Mat3 mat_mul(Mat3 a, Mat3 b) {
+    Mat3 t = mat_transpose(b), m;
+    for (int i = 0; i < 3; i++) m.r[i] = vec(vec_dot(a.r[i], t.r[0]), vec_dot(a.r[i], t.r[1]), vec_dot(a.r[i], t.r[2]));
+    return m;
+}
+/* The matrix whose columns are x, y and z. */
+static inline Mat3 mat_columns(Vec3 x, Vec3 y, Vec3 z) { return mat_transpose((Mat3){{x, y, z}}); }
+static inline Vec3 mat_column(Mat3 m, int i) { return i == 0 ? vec(m.r[0].x, m.r[1].x, m.r[2].x) : i == 1 ? vec(m.r[0].y, m.r[1].y, m.r[2].y) : vec(m.r[0].z, m.r[1].z, m.r[2].z); }
+/* Rotation by `angle` radians about the unit vector `axis`. */
+static inline Mat3 mat_axis_angle(Vec3 axis, double angle) {
+    double c = cos(angle), s = sin(angle), k = 1 - c, x = axis.x, y = axis.y, z = axis.z;
+    return (Mat3){{{c + x * x * k, x * y * k - z * s, x * z * k + y * s},
+                   {y * x * k + z * s, c + y * y * k, y * z * k - x * s},
+                   {z * x * k - y * s, z * y * k + x * s, c + z * z * k}}};
+}
+/* Smallest rotation that takes unit vector a to unit vector b. For opposite vectors it turns
+   about the axis perpendicular to a that lies nearest to +x. */
+static inline Mat3 mat_between(Vec3 a, Vec3 b) {
+    double c = vec_dot(a, b);
+    if (c < -0.999999) {
+        Vec3 axis = vec_unit_or(vec_mad(vec(1, 0, 0), a, -a.x), vec(0, 0, 1));
+        return mat_axis_angle(axis, 3.14159265358979323846);
+    }
+    Vec3 v = vec_cross(a, b);
+    double k = 1.0 / (1.0 + c);
+    return (Mat3){{{v.x * v.x * k + c, v.x * v.y * k - v.z, v.x * v.z * k + v.y},
+                   {v.y * v.x * k + v.z, v.y * v.y * k + c, v.y * v.z * k - v.x},
+                   {v.z * v.x * k - v.y, v.z * v.y * k + v.x, v.z * v.z * k + c}}};
+}
+
+static inline Rigid rigid_identity(void) { return (Rigid){mat_identity(), {0, 0, 0}}; }
+static inline Vec3 rigid_apply(Rigid g, Vec3 p) { return vec_add(mat_apply(g.r, p), g.t); }
+static inline Vec3 rigid_unapply(Rigid g, Vec3 p) { return mat_apply(mat_transpose(g.r), vec_sub(p, g.t)); }
+/* a after b */
+static inline Rigid rigid_mul(Rigid a, Rigid b) { return (Rigid){mat_mul(a.r, b.r), rigid_apply(a, b.t)}; }
+static inline Rigid rigid_inverse(Rigid g) {
+    Mat3 t = mat_transpose(g.r);
+    return (Rigid){t, vec_scale(mat_apply(t, g.t), -1)};
+}
+
+static inline Quat quat_from_mat(Mat3 m) {
+    double xx = m.r[0].x, yy = m.r[1].y, zz = m.r[2].z, trace = xx + yy + zz;
+    Quat q;
+    if (trace > 0) q = (Quat){1 + trace, m.r[2].y - m.r[1].z, m.r[0].z - m.r[2].x, m.r[1].x - m.r[0].y};
+    else if (xx > yy && xx > zz) q = (Quat){m.r[2].y - m.r[1].z, 1 + xx - yy - zz, m.r[0].y + m.r[1].x, m.r[0].z + m.r[2].x};
+    else if (yy > zz) q = (Quat){m.r[0].z - m.r[2].x, m.r[0].y + m.r[1].x, 1 + yy - xx - zz, m.r[1].z + m.r[2].y};
+    else q = (Quat){m.r[1].x - m.r[0].y, m.r[0].z + m.r[2].x, m.r[1].z + m.r[2].y, 1 + zz - xx - yy};
+    double n = 1.0 / sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    return (Quat){q.w * n, q.x * n, q.y * n, q.z * n};
+}
+static inline Mat3 mat_from_quat(Quat q) {
+    double w = q.w, x = q.x, y = q.y, z = q.z;
+    return (Mat3){{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+                   {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+                   {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
+}
+/* Shortest-arc normalised interpolation. */
+static inline Quat quat_nlerp(Quat a, Quat b, double t) {
+    double s = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z < 0 ? -t : t;
+    Quat q = {a.w * (1 - t) + b.w * s, a.x * (1 - t) + b.x * s, a.y * (1 - t) + b.y * s, a.z * (1 - t) + b.z * s};
+    double n = 1.0 / sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    return (Quat){q.w * n, q.x * n, q.y * n, q.z * n};
+}
+static inline Mat3 mat_nlerp(Mat3 a, Mat3 b, double t) { return mat_from_quat(quat_nlerp(quat_from_mat(a), quat_from_mat(b), t)); }
+
+static inline Box box_empty(void) { return (Box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}; }
+static inline void box_add(Box *b, Vec3 p) {
+    b->low = vec(p.x < b->low.x ? p.x : b->low.x, p.y < b->low.y ? p.y : b->low.y, p.z < b->low.z ? p.z : b->low.z);
+    b->high = vec(p.x > b->high.x ? p.x : b->high.x, p.y > b->high.y ? p.y : b->high.y, p.z > b->high.z ? p.z : b->high.z);
+}
+
+static inline double clamp(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
+/* 0 below a, 1 above b, 3t^2 - 2t^3 between. */
+static inline double smoothstep(double a, double b, double x) {
+    double t = clamp((x - a) / (b - a), 0, 1);
+    return t * t * (3 - 2 * t);
+}
+
+#define PI 3.14159265358979323846
+
+#endif

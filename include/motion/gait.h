@@ -1,0 +1,31 @@
+/* Walking motions made from normative gait data, written as BVH. */
+#ifndef MOTION_GAIT_H
+#define MOTION_GAIT_H
+
+#include <stdio.h>
+
+#include "base/arena.h"
+
+/* gait_defaults fills it; see the options of `kitsuke walk` for units and ranges. */
+typedef struct {
+    const char *preset;      /* "normal", "paper" (strong knee flexion, level pelvis), "brisk",
+                                "squat", "turn" */
+    int frames_per_step;     /* 4..1000 */
+    int steps;               /* 1..10000 */
+    double step_length;      /* metres, heel to heel; 0 = from height and speed */
+    double height;           /* stature, metres */
+    double speed;            /* metres per second; 0 = from step length and preset */
+    double knee_lift;        /* degrees of extra knee flexion in swing */
+    double arm_swing;        /* degrees, half the range of the shoulder */
+    double slope;            /* degrees, up is positive */
+    double stair_rise, stair_run; /* metres; 0 = no stairs; negative rise: down */
+    int stair_count;
+} Gait;
+
+void gait_defaults(Gait *g);
+
+/* Writes the motion as BVH (cm, Y up, walking along +Z). ERR_USAGE for values out of range
+   or impossible together. */
+MUST_CHECK bool gait_write(const Gait *g, FILE *out, Error *e);
+
+#endif

@@ -1,0 +1,81 @@
+/* A chain of blocks, each twice as large as the one before; reset keeps them. */
+#include "base/arena.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ALIGN = 64, FIRST_BLOCK = 64 * 1024 };
+
+struct ArenaBlock {
+    ArenaBlock *next;
+    size_t size, used; /* of the bytes behind this head */
+};
+
+/* The head is padded so that the bytes behind it start aligned. */
+#define HEAD ((sizeof(ArenaBlock) + ALIGN - 1) / ALIGN * ALIGN)
+
+static ArenaBlock *new_block(Arena *a, size_t need) {
+    size_t size = a->current ? a->current->size * 2 : FIRST_BLOCK;
+    if (a->limit && a->held + size + HEAD > a->limit) size = need;
+    if (size < need) size = need;
+    if (a->limit && a->held + size + HEAD > a->limit) return NULL;
+    ArenaBlock *b = aligned_alloc(ALIGN, HEAD + size);
+    if (!b) return NULL;
+    *b = (ArenaBlock){NULL, size, 0};
+    a->held += HEAD + size;
+    if (a->current) a->current->next = b;
+    else a->first = b;
+    return b;
+}
+
+static void *take(Arena *a, size_t bytes) {
+    while (a->current && a->current->size - a->current->used < bytes && a->current->next) a->current = a->current->next;
+    if (!a->current || a->current->size - a->current->used < bytes) {
+        ArenaBlock *b = new_block(a, bytes);
+        if (!b) return NULL;
+        a->current = b;
+    }
+    char *p = (char *)a->current + HEAD + a->current->used;
+    a->current->used += bytes;
+    a->used += bytes;
+    if (a->used > a->peak) a->peak = a->used;
+    return memset(p, 0, bytes);
+}
+
+void *arena_array(Arena *a, size_t count, size_t size, Error *e) {
+    if (size && count > (SIZE_MAX / 4) / size) {
+        error_set(e, ERR_INTERNAL, "%zu items of %zu bytes are too many", count, size);
+        return NULL;
+    }
+    size_t bytes = (count * size + ALIGN - 1) / ALIGN * ALIGN;
+    void *p = a->fail_after > 0 && --a->fail_after == 0 ? NULL : take(a, bytes ? bytes : ALIGN);
+    if (!p) error_set(e, ERR_INTERNAL, "out of memory (%zu bytes held, %zu more asked)", a->held, bytes);
+    return p;
+}
+
+char *arena_text(Arena *a, const char *text, size_t n, Error *e) {
+    char *p = arena_array(a, n + 1, 1, e);
+    if (p) memcpy(p, text, n);
+    return p;
+}
+
+void arena_reset(Arena *a) {
+    for (ArenaBlock *b = a->first; b; b = b->next) {
+#ifdef VALIDATE
+        memset((char *)b + HEAD, 0xDD, b->used); /* so that a stale pointer shows */
+#endif
+        b->used = 0;
+    }
+    a->current = a->first;
+    a->used = 0;
+}
+
+void arena_free(Arena *a) {
+    for (ArenaBlock *b = a->first, *next; b; b = next) {
+        next = b->next;
+        free(b);
+    }
+    a->first = a->current = NULL;
+    a->used = a->held = 0;
+}
