@@ -17,26 +17,29 @@ typedef struct {
 
 /* Boxes over one set of segments or triangles, made for repeated queries. Memory is taken at
    crossing_reserve and kept; building allocates nothing. Private inside. */
+typedef struct CrossingTile CrossingTile;
+typedef struct CrossingItem CrossingItem;
+enum { CROSSING_LEVELS = 3 };
 typedef struct {
     int capacity, count;  /* items */
     const Vec3 *position; /* borrowed: must stay as it is until the next build */
-    const int *index;     /* per item: 2 (segments) or 3 (triangles) vertex indices */
+    const int *index;     /* borrowed: per item 2 (segments) or 3 (triangles) vertex indices */
     int corners;          /* 2 or 3 */
-    const int *order;     /* item i of the boxes is index[corners * order[i]]; NULL = in order */
-    float *box[6];        /* per item, lows then highs, rounded outwards */
-    float *tile[6];       /* per 16 items */
+    float reach;          /* largest coordinate magnitude */
+    CrossingTile *level[CROSSING_LEVELS]; /* boxes of items, of tiles of 16 items, of tiles of 16 of those */
+    CrossingItem *item;   /* per tile of items, what the filter needs */
 } CrossingSet;
 
 MUST_CHECK bool crossing_reserve(CrossingSet *set, int capacity, Arena *arena, Error *e);
 
 /* Boxes over the segments edge[0..n-1] (or triangles) whose vertices are in position. Items
    that follow each other in the array should lie near each other: 16 share a box.
-   n <= capacity. order may be NULL. */
-void crossing_build_edges(CrossingSet *set, const Vec3 *position, const Edge *edge, int n, const int *order);
-void crossing_build_triangles(CrossingSet *set, const Vec3 *position, const Triangle *triangle, int n, const int *order);
+   n <= capacity; coordinates are finite, magnitudes below 1e18. */
+void crossing_build_edges(CrossingSet *set, const Vec3 *position, const Edge *edge, int n);
+void crossing_build_triangles(CrossingSet *set, const Vec3 *position, const Triangle *triangle, int n);
 
-/* Finds every pair that intersects, in a fixed order (by tile, then item). Writes the first
-   `capacity` to out, counts all; adds to *count. Returns how many were written. */
+/* Finds every pair that intersects, in a fixed order. Writes the first `capacity` to out,
+   counts all; adds to *count. Returns how many were written. */
 int crossing_find(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
                   CrossingCount *count);
 

@@ -1,0 +1,44 @@
+/* Two small things that every mesh needs: coordinates that survive being written as text, and
+   the list of its edges. */
+#include "geometry/mesh.h"
+
+/* Round x to a whole number of millionths, then divide: both operands are whole numbers below
+   2^53, so the quotient is the double nearest to the decimal, which is what strtod returns.
+   printf rounds the exact value of x and ties to even. The product p is rounded itself, which
+   matters only where it lands on a half: then what the product lost decides. */
+double mesh_snap(double x) {
+    if (!(fabs(x) < 1e9)) return x;
+    const double whole = 6755399441055744.0; /* 1.5 x 2^52: adding it leaves no fraction bits, so it rounds, ties to even */
+    double p = x * 1e6, n = (p + whole) - whole, rest = p - n;
+    if (rest == 0.5 || rest == -0.5) {
+        double high = (double)(float)x, low = x - high; /* 24 and 29 bits: times 1e6 (14 bits) both are exact */
+        double lost = (high * 1e6 - p) + low * 1e6;
+        if (lost * rest > 0) n += 2 * rest;
+    }
+    return n / 1e6 + 0.0; /* -0 + 0 is 0 */
+}
+
+/* The edges at a vertex that have it as their lower end form a list; few enough to search. */
+bool mesh_find_edges(Mesh *mesh, Arena *arena, Error *e) {
+    size_t sides = 3 * (size_t)mesh->ntriangles;
+    Edge *edge = ARENA_NEW(arena, Edge, sides, e);
+    int *first = ARENA_NEW(arena, int, mesh->nvertices, e); /* per vertex: edge + 1, 0 = none */
+    int *next = ARENA_NEW(arena, int, sides, e);            /* per edge likewise */
+    if (!edge || !first || !next) return false;
+    int n = 0;
+    for (int t = 0; t < mesh->ntriangles; t++) {
+        const int *v = mesh->triangle[t].v;
+        for (int k = 0; k < 3; k++) {
+            int a = v[k], b = v[(k + 1) % 3], low = a < b ? a : b, high = a < b ? b : a, i = first[low];
+            if (low == high) continue; /* a side of a collapsed triangle is no edge */
+            while (i && edge[i - 1].v[1] != high) i = next[i - 1];
+            if (i) continue;
+            edge[n] = (Edge){{low, high}};
+            next[n] = first[low];
+            first[low] = ++n;
+        }
+    }
+    mesh->edge = edge;
+    mesh->nedges = n;
+    return true;
+}
