@@ -10,7 +10,7 @@
 enum {
     GARMENT_NAME_MAX = 48, GARMENT_RINGS_MAX = 64, GARMENT_PANELS_MAX = 32, GARMENT_ROWS_MAX = 16,
     GARMENT_PATCHES_MAX = 64, GARMENT_SEAMS_MAX = 128, GARMENT_JOINS_MAX = 32, GARMENT_COLLIDES_MAX = 32,
-    GARMENT_PINS_MAX = 16, BINDING_MAX = 4
+    GARMENT_PINS_MAX = 16, GARMENT_DETAIL_MAX = 64, BINDING_MAX = 4
 };
 
 typedef enum { FOLLOW_BONES, FOLLOW_ENVELOPE } Follow; /* the global deformation */
@@ -23,7 +23,9 @@ typedef struct { int n; Role bone[BINDING_MAX]; double weight[BINDING_MAX]; } Bi
 
 /* A ring: two half-ellipses round a body part, `ease` metres off its section, or of an own
    size. Centre: the section's centre plus `shift` (canonical axes). Plane: across the part's
-   axis, then turned by `tilt` degrees about canonical z (positive raises the left side). */
+   axis, then turned by `tilt` degrees about canonical z (positive raises the left side); the
+   stations keep the names they had before the turn. In a garment that follows the envelope a
+   ring on a thigh or shin goes round both legs: its centre lies half-way between the two. */
 typedef struct {
     char name[GARMENT_NAME_MAX];
     Role part;
@@ -43,7 +45,8 @@ typedef struct { int ring; Station from, via, to; } Row;
 /* A column of nrows - 1 patches. u runs along the rows, w from the first row to the last. */
 typedef struct { char name[GARMENT_NAME_MAX]; int nrows; Row row[GARMENT_ROWS_MAX]; } Panel;
 
-/* A raw patch: 16 control points, row by row: point[4 * i + j] is B_ij. */
+/* A raw patch: 16 control points, row by row like a panel's rows, top row first, so that u runs
+   along a row and w from row to row: point[4 * j + i] is B_ij. */
 typedef struct { char name[GARMENT_NAME_MAX]; Vec3 point[16]; Binding binding[16]; } RawPatch;
 
 /* start / end: first / last point of every row (u = 0 / 1); top / bottom: first / last row. */
@@ -75,6 +78,15 @@ typedef struct {
     Collide collide[GARMENT_COLLIDES_MAX];
     Pin pin[GARMENT_PINS_MAX];
 } Garment;
+
+/* "left", "front", "right", "back"; "start", "end", "top", "bottom". */
+const char *station_name(Station s);
+const char *side_name(Side s);
+
+/* The ring, or the piece (panel or raw patch, numbered as in Seam), of that name; -1: none. */
+int garment_find_ring(const Garment *g, const char *name);
+int garment_find_piece(const Garment *g, const char *name);
+const char *garment_piece_name(const Garment *g, int piece);
 
 /* Reads and checks a garment: names known and unique, rings used in order, sides of seams of
    equal control points and equal bindings, patches not degenerate, a name that can be a file

@@ -1,0 +1,43 @@
+/* What a garment must be beyond its grammar. Each check writes what is wrong into `why`, in the
+   words of an error message; the parser knows the place. */
+#ifndef GARMENT_CHECK_H
+#define GARMENT_CHECK_H
+
+#include "garment/garment.h"
+
+typedef struct { char text[240]; } Why;
+
+/* Can the name be (the beginning of) a file name on any system, a cell of a table, and no
+   statement of the format? */
+MUST_CHECK bool check_name(const char *name, Why *why);
+
+/* Is the row an arc between neighbouring stations, of a ring that the panel does not have yet? */
+MUST_CHECK bool check_row(const Garment *g, const Panel *panel, const Row *row, Why *why);
+
+/* Has the raw patch an area? */
+MUST_CHECK bool check_area(const RawPatch *patch, Why *why);
+
+/* Are the two sides of a seam the same curve, point by point, in the same or in the opposite
+   order, and neither sewn to another yet? `seam` is not among those of g. */
+MUST_CHECK bool check_seam(const Garment *g, const Seam *seam, Why *why);
+
+/* Two stations of different rings, neither joined to another yet? */
+MUST_CHECK bool check_join(const Garment *g, const Join *join, Why *why);
+
+/* Is there a patch that the statement speaks of? */
+MUST_CHECK bool check_collide(const Garment *g, const Collide *collide, Why *why);
+MUST_CHECK bool check_pin(const Garment *g, const Pin *pin, Why *why);
+
+/* Can a garment that follows the envelope have this panel: rings of torso and legs, the same in
+   every panel, each below the one before? */
+MUST_CHECK bool check_envelope(const Garment *g, const Panel *panel, Why *why);
+
+/* Adds the mirror image of everything whose name begins with `from`, named with `to` instead. */
+MUST_CHECK bool garment_mirror(Garment *g, const char *from, const char *to, Why *why);
+
+/* Adds a panel or a raw patch and returns it, NULL where there are too many. Pieces count panels
+   first, so a new panel moves the numbers of the patches in every seam, pin and collide. */
+Panel *garment_add_panel(Garment *g, const char *name);
+RawPatch *garment_add_patch(Garment *g, const char *name);
+
+#endif
