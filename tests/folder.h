@@ -1,0 +1,32 @@
+/* A folder that a unit program may write in, removed at its end. */
+#ifndef TESTS_FOLDER_H
+#define TESTS_FOLDER_H
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static char folder[] = "/tmp/kitsuke-unit-XXXXXX";
+
+static inline bool folder_make(void) {
+    if (mkdtemp(folder)) return true;
+    printf("Bail out! cannot make a folder in /tmp\n");
+    return false;
+}
+
+static inline void folder_remove(void) {
+    char command[64];
+    snprintf(command, sizeof command, "rm -rf '%s'", folder);
+    if (system(command) != 0) printf("# %s is left\n", folder);
+}
+
+/* Its path with a name in it; good until the call after the next. */
+static inline const char *in_folder(const char *name) {
+    static char path[2][256];
+    static int turn;
+    turn = !turn;
+    snprintf(path[turn], sizeof path[turn], "%s/%s", folder, name);
+    return path[turn];
+}
+
+#endif

@@ -1,0 +1,39 @@
+/* A small mesh for the tests of files. */
+#ifndef TESTS_SHEET_H
+#define TESTS_SHEET_H
+
+#include <math.h>
+
+#include "geometry/mesh.h"
+
+enum { SIDE = 12, VERTICES = SIDE * SIDE, TRIANGLES = 2 * (SIDE - 1) * (SIDE - 1) };
+
+typedef struct {
+    Vec3 position[VERTICES], normal[VERTICES];
+    double u[VERTICES], w[VERTICES];
+    Triangle triangle[TRIANGLES];
+    MeshGroup group[3];
+    Mesh mesh;
+} Sheet;
+
+/* A wavy sheet in two groups (and one that is empty), snapped like a written mesh. */
+static inline void make_sheet(Sheet *s) {
+    s->mesh = (Mesh){.nvertices = VERTICES, .ntriangles = TRIANGLES, .ngroups = 3, .position = s->position, .normal = s->normal,
+                     .u = s->u, .w = s->w, .triangle = s->triangle, .group = s->group};
+    Triangle *t = s->triangle;
+    for (int i = 0; i < VERTICES; i++) {
+        double a = i % SIDE, b = (double)(i - i % SIDE) / SIDE, slope = 0.3 * cos(a), length = sqrt(1 + slope * slope);
+        s->position[i] = (Vec3){round(1e5 * a) / 1e6, round(1e6 * 0.03 * sin(a)) / 1e6, round(1e5 * b) / 1e6 - 0.7};
+        s->normal[i] = (Vec3){-slope / length, 1 / length, 0};
+        s->u[i] = a / (SIDE - 1);
+        s->w[i] = b / (SIDE - 1);
+        if (i % SIDE == SIDE - 1 || i >= VERTICES - SIDE) continue;
+        *t++ = (Triangle){{i, i + SIDE, i + 1}};
+        *t++ = (Triangle){{i + 1, i + SIDE, i + SIDE + 1}};
+    }
+    s->group[0] = (MeshGroup){"left back", 0, 100};
+    s->group[1] = (MeshGroup){"none", 100, 0};
+    s->group[2] = (MeshGroup){"right", 100, TRIANGLES - 100};
+}
+
+#endif
