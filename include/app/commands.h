@@ -1,0 +1,12 @@
+/* The commands. Each does its work and returns the exit code; an error that is left in *e is
+   printed by main, others were printed where they happened. */
+#ifndef APP_COMMANDS_H
+#define APP_COMMANDS_H
+
+#include "app/settings.h"
+
+ErrorKind cmd_dress(const Settings *settings, Error *e);
+ErrorKind cmd_inspect(const Settings *settings, Error *e);
+ErrorKind cmd_walk(const Settings *settings, Error *e);
+
+#endif

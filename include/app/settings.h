@@ -1,0 +1,109 @@
+/* Everything that can be asked for, as plain data, and the one table that says how it is
+   asked for. Parsing, help, suggestions and job files are made from this table. */
+#ifndef APP_SETTINGS_H
+#define APP_SETTINGS_H
+
+#include "dress/frame.h"
+#include "files/drc.h"
+#include "motion/gait.h"
+
+typedef enum { COMMAND_DRESS = 1, COMMAND_INSPECT = 2, COMMAND_WALK = 4, COMMAND_ALL = 7 } CommandBit;
+
+/* Frames first, first + step, ... up to last, counted from 1. 0: from the first, to the last,
+   every one. */
+typedef struct { int first, last, step; } FrameSpan;
+
+typedef struct { int count; const char **item; } TextList;
+
+typedef enum { FORMAT_OBJ = 1, FORMAT_DRC = 2, FORMAT_NONE = 4 } FormatBit;
+typedef enum { PROGRESS_AUTO, PROGRESS_ALWAYS, PROGRESS_NEVER } ProgressMode;
+
+/* Filled by options_parse, const for everybody else. Zero is the default everywhere, but for
+   `gait`, which gait_defaults fills. */
+typedef struct {
+    TextList inputs;            /* what stands on the command line without a dash */
+    const char *output;         /* folder (dress) or file (walk) */
+
+    TextList garments;
+    const char *asf, *roles, *body;
+    double fps;                 /* frames per second instead of what the file says */
+    int position;               /* PositionRule */
+    double unit;                /* metres per unit of the motion file */
+    double scale;
+    int up;                     /* as in FigureOptions */
+    FrameSpan frames;
+    double rate;                /* resample to so many frames per second */
+
+    int split;                  /* SplitRule */
+    int fixed;                  /* 1: --topology fixed */
+    int detail, depth;          /* as in DressOptions */
+    int body_detail;            /* facets round a section; 0 = 16 */
+
+    unsigned formats;           /* FormatBit set; 0 = obj */
+    double output_unit;         /* metres per unit of the written files; 0 = 1 */
+    DrcOptions drc;             /* .speed counts from 1, as there */
+    bool no_body, no_times, force;
+
+    int jobs;                   /* worker threads; 0 = one per processor */
+    bool strict, quiet, verbose;
+    int progress;               /* ProgressMode */
+
+    bool joints;                /* inspect */
+    Gait gait;                  /* walk */
+    bool help, version;
+} Settings;
+
+typedef enum {
+    KIND_FLAG,   /* bool: --name, --no-name, --name=yes|no */
+    KIND_INT,    /* int in low..high, a multiple of `step` */
+    KIND_REAL,   /* double in low..high */
+    KIND_TEXT,   /* const char * */
+    KIND_LIST,   /* TextList: may be repeated */
+    KIND_CHOICE, /* int: one of `choices` */
+    KIND_SET,    /* unsigned: several of `choices`, separated by commas */
+    KIND_SPAN,   /* FrameSpan: A, A:B or A:B:STEP */
+    KIND_UNIT    /* double: a name in `choices` stands for millimetres, or a number of metres */
+} OptionKind;
+
+typedef struct { const char *name; int value; } Choice;
+
+typedef struct {
+    const char *name;      /* without the dashes */
+    char letter;           /* short form, or 0 */
+    OptionKind kind;
+    size_t field;          /* offset in Settings */
+    const char *argument;  /* what the help calls the value; NULL for flags */
+    const char *help;
+    const char *fallback;  /* the default, in words; NULL: nothing to say */
+    const char *group;     /* heading in the help */
+    unsigned commands;     /* CommandBit set */
+    double low, high;      /* range of a number, both included */
+    int step;              /* KIND_INT: multiples of this; 0 = 1 */
+    int bias;              /* KIND_INT: added before it is stored, so that 0 can mean default */
+    const Choice *choices; /* ends with a NULL name */
+} Option;
+
+enum { OPTIONS_MAX = 96 };
+
+/* Ends with a NULL name. */
+extern const Option settings_table[];
+
+/* The option of that name (length bytes) or letter that one of `commands` takes; else one of
+   another command; else NULL. */
+const Option *settings_find(const char *name, size_t length, unsigned commands);
+const Option *settings_find_letter(char letter, unsigned commands);
+
+/* The name nearest to a mistyped one, or NULL. */
+const Option *settings_nearest(const char *name, unsigned commands);
+
+/* Puts a value, as text, where it belongs. `text` must outlive the settings. ERR_USAGE that
+   names the option, says what was expected and quotes what was found. */
+MUST_CHECK bool settings_put(Settings *s, const Option *option, const char *text, Arena *arena, Error *e);
+
+/* Adds a word that is no option to `inputs`. */
+MUST_CHECK bool settings_operand(Settings *s, const char *text, Arena *arena, Error *e);
+
+/* "adaptive, uniform or none" into out (capacity n, always terminated); returns out. */
+const char *settings_choices(const Choice *choices, char *out, size_t n);
+
+#endif

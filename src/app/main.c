@@ -1,0 +1,86 @@
+/* The front door: finds the command, reads its options, runs it, prints the error that comes
+   back, and makes its kind the exit code. */
+#include <errno.h>
+#include <string.h>
+
+#include "app/commands.h"
+#include "app/help.h"
+
+static const Command commands[] = {
+    {"inspect", COMMAND_INSPECT, "tell what is in a motion, garment or body file", "[OPTION]... FILE...",
+     "kitsuke inspect motions/paper-walk.bvh\nkitsuke inspect --joints motions/paper-walk.bvh > joints.csv", cmd_inspect},
+    {0}};
+
+static const Command *find_command(const char *name) {
+    for (const Command *c = commands; c->name; c++)
+        if (strcmp(c->name, name) == 0) return c;
+    return NULL;
+}
+
+static bool unknown_command(const char *name, Error *e) {
+    if (name[0] == '-') return error_set(e, ERR_USAGE, "expected a command in front of '%s'", name);
+    for (const Command *c = commands; c->name; c++)
+        if (text_distance(c->name, name) <= 2) return error_set(e, ERR_USAGE, "unknown command '%s'; did you mean '%s'?", name, c->name);
+    return error_set(e, ERR_USAGE, "unknown command '%s'", name);
+}
+
+static bool is_one_of(const char *word, const char *a, const char *b, const char *c) {
+    return strcmp(word, a) == 0 || strcmp(word, b) == 0 || strcmp(word, c) == 0;
+}
+
+static ErrorKind print_version(void) {
+    printf("kitsuke %s\n", KITSUKE_VERSION);
+    return ERR_NONE;
+}
+
+/* `kitsuke help` and `kitsuke help COMMAND` */
+static ErrorKind run_help(const char *topic, Error *e) {
+    const Command *command = topic ? find_command(topic) : NULL;
+    if (topic && !command) unknown_command(topic, e);
+    else if (command) help_command(command, stdout);
+    else help_program(commands, stdout);
+    return e->kind;
+}
+
+static ErrorKind run_command(const Command *command, int argc, char **argv, Error *e) {
+    Arena arena = {0};
+    Settings settings;
+    ErrorKind code = ERR_USAGE;
+    if (options_parse(command, argc, argv, &arena, &settings, e)) {
+        if (settings.help) help_command(command, stdout);
+        else if (settings.version) print_version();
+        code = settings.help || settings.version ? ERR_NONE : command->run(&settings, e);
+    }
+    arena_free(&arena);
+    return e->kind > code ? e->kind : code;
+}
+
+static ErrorKind run(int argc, char **argv, Error *e) {
+    if (argc < 2) {
+        help_hint(commands, stderr);
+        return ERR_USAGE;
+    }
+    const char *word = argv[1];
+    if (is_one_of(word, "--version", "-V", "version")) return print_version();
+    if (is_one_of(word, "--help", "-h", "help")) return run_help(argc > 2 ? argv[2] : NULL, e);
+    const Command *command = find_command(word);
+    if (command) return run_command(command, argc - 2, argv + 2, e);
+    unknown_command(word, e);
+    return ERR_USAGE;
+}
+
+int main(int argc, char **argv) {
+    Error e = {0};
+    ErrorKind code = run(argc, argv, &e);
+    errno = 0;
+    if (fflush(stdout) != 0 || ferror(stdout)) {
+        error_set(&e, ERR_OUTPUT, "cannot write to standard output: %s", errno ? strerror(errno) : "write error");
+        if (code < ERR_OUTPUT) code = ERR_OUTPUT;
+    }
+    if (e.kind) error_print(&e, stderr);
+    if (e.kind == ERR_USAGE) {
+        const Command *command = argc > 1 ? find_command(argv[1]) : NULL;
+        fprintf(stderr, "Use 'kitsuke %s%s--help' for what there is.\n", command ? command->name : "", command ? " " : "");
+    }
+    return (int)code;
+}
