@@ -1,4 +1,8 @@
-/* Walking motions made from normative gait data, written as BVH. */
+/* Walking motions made from normative gait data, written as BVH.
+
+   Body: segment lengths as fractions of stature after Drillis and Contini (1966), as printed
+   in Winter, Biomechanics and Motor Control of Human Movement, fig. 4.1. The joint curves
+   and their sources stand in motion/gait_curves.h. */
 #ifndef MOTION_GAIT_H
 #define MOTION_GAIT_H
 
@@ -11,12 +15,12 @@ typedef struct {
     const char *preset;      /* "normal", "paper" (strong knee flexion, level pelvis), "brisk",
                                 "squat", "turn" */
     int frames_per_step;     /* 4..1000 */
-    int steps;               /* 1..10000 */
-    double step_length;      /* metres, heel to heel; 0 = from height and speed */
+    int steps;               /* 1..10000; 0 = what suits the preset */
+    double step_length;      /* metres, heel to heel; 0 = from height and preset */
     double height;           /* stature, metres */
     double speed;            /* metres per second; 0 = from step length and preset */
     double knee_lift;        /* degrees of extra knee flexion in swing */
-    double arm_swing;        /* degrees, half the range of the shoulder */
+    double arm_swing;        /* degrees, half the range of the shoulder; negative = preset's */
     double slope;            /* degrees, up is positive */
     double stair_rise, stair_run; /* metres; 0 = no stairs; negative rise: down */
     int stair_count;
