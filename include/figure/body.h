@@ -23,13 +23,14 @@ typedef struct {
     double front, back;  /* half depths towards +z and -z */
 } Section;
 
-enum { SECTIONS_MAX = 24, BODY_PARTS_MAX = 24 };
+/* SECTIONS_MAX counts the caps, three sections at each end, which a body file does not give. */
+enum { SECTIONS_MAX = 24, CAP_SECTIONS = 3, SPEC_SECTIONS_MAX = SECTIONS_MAX - 2 * CAP_SECTIONS, BODY_PARTS_MAX = 24 };
 
 /* A part as the body file gives it, for the reference figure. */
 typedef struct {
     Role role;
-    int nsections;
-    Section section[SECTIONS_MAX];
+    int nsections; /* 2..SPEC_SECTIONS_MAX */
+    Section section[SPEC_SECTIONS_MAX];
 } BodyPartSpec;
 typedef struct {
     char name[64];
@@ -45,16 +46,20 @@ MUST_CHECK bool body_read(const char *path, Arena *scratch, BodySpec *out, Error
 MUST_CHECK bool body_parse(const Text *text, BodySpec *out, Error *e);
 bool body_write(const BodySpec *body, FILE *out);
 
-/* A part sized to a figure. */
+/* A part sized to a figure. Its surface is a function of y alone: five values (centre x and z,
+   side, front, back), each a piecewise cubic, C1, monotone between sections. */
+enum { SHAPE_VALUES = 5, BODY_BUCKETS = 64 };
 typedef struct {
     Role role;
     Rigid frame;            /* part frame -> canonical stance */
-    double length;          /* of the bone, metres */
+    double length;          /* of the bone along y, metres */
     int nsections;
     Section section[SECTIONS_MAX];       /* metres; `at` in metres along y, caps included */
-    double slope[SECTIONS_MAX][5];       /* d/dy of x, z, side, front, back (monotone cubic) */
+    double cubic[SECTIONS_MAX][4][SHAPE_VALUES]; /* from section i on: sum of cubic[i][k] (y - at)^k */
     double low, high;       /* y range, with the end caps */
-    double reach;           /* largest distance of the surface from the y axis */
+    double reach;           /* no point of the surface is farther from the y axis */
+    double buckets_per_metre;            /* private: finds the section of a y without a search */
+    unsigned char bucket[BODY_BUCKETS];
     int first_vertex, nvertices, first_triangle, ntriangles, first_edge, nedges;
 } BodyPart;
 
@@ -74,6 +79,13 @@ typedef struct {
    shells, one for each part, no degenerate triangles. Memory from arena. */
 MUST_CHECK bool body_fit(const BodySpec *spec, const Figure *figure, int detail, Arena *arena, Body *out, Error *e);
 
+/* The steps of body_fit. Closes a part whose nsections sections (in metres) are set: adds the
+   caps and fills everything from `section` to `bucket`. */
+void body_part_close(BodyPart *part);
+
+/* Patches and skin of a body whose parts are closed. */
+MUST_CHECK bool body_skin(Body *body, int detail, Arena *arena, Error *e);
+
 /* Vertices (skin.nvertices) of the skin in a pose, world frame. normals may be NULL. */
 void body_pose(const Body *b, const Pose *pose, Vec3 *positions, Vec3 *normals);
 
@@ -82,6 +94,10 @@ void body_pose(const Body *b, const Pose *pose, Vec3 *positions, Vec3 *normals);
    not NULL, gets the outward unit normal in the part frame. Beyond `far` metres it may
    return any value >= far that is not larger than the true distance, without a normal. */
 double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal);
+
+/* The section at height y of the part frame, clamped to the part's range. *slope, if not NULL,
+   gets d/dy of its values. */
+Section body_section_at(const BodyPart *part, double y, Section *slope);
 
 /* The section of a part at `at` bone lengths from its start, in metres (centre, half sizes),
    clamped to the part's range. */

@@ -1,0 +1,181 @@
+/* One part of the body: a generalised cone. The one idea: everything about its surface is a
+   function of y. Five piecewise cubics give the centre and the half sizes of the section at y;
+   the skin patches are the same cubics in Bezier form, and the inside test evaluates the same
+   cubics, so that what is drawn, tested and pushed against is one surface. */
+#include "figure/body.h"
+
+#include <string.h>
+
+/* Caps: a quarter ellipse sampled at 35, 65 and 90 degrees. */
+static const double CAP_RISE[CAP_SECTIONS] = {0.57357643635104609, 0.90630778703664996, 1};
+static const double CAP_SIZE[CAP_SECTIONS] = {0.81915204428899180, 0.42261826174069944, 0};
+
+/* A round end meets its axis at a right angle, which no finite slope can say. With this many
+   times the secant the cubic follows the ellipse's last 25 degrees best; 3 would be the bound
+   of monotony. */
+static const double TIP_STEEPNESS = 2.2;
+
+/* The poles have no size, so the distance is taken this far (metres) inside of them. */
+static const double POLE = 1e-6;
+
+static void values_of(const Section *s, double v[SHAPE_VALUES]) {
+    v[0] = s->x;
+    v[1] = s->z;
+    v[2] = s->side;
+    v[3] = s->front;
+    v[4] = s->back;
+}
+
+/* Prepends and appends the caps: as high as the end section's smaller half size, which makes a
+   round limb end in a half ball, so that two limbs that share a joint bend without a gap. */
+static void add_caps(BodyPart *part) {
+    Section body[SECTIONS_MAX];
+    int n = part->nsections;
+    memcpy(body, part->section, (size_t)n * sizeof *body);
+    memcpy(part->section + CAP_SECTIONS, body, (size_t)n * sizeof *body);
+    for (int end = 0; end < 2; end++) {
+        Section rim = end ? body[n - 1] : body[0];
+        double height = fmin(rim.side, 0.5 * (rim.front + rim.back));
+        for (int k = 0; k < CAP_SECTIONS; k++) {
+            Section *s = &part->section[end ? CAP_SECTIONS + n + k : CAP_SECTIONS - 1 - k];
+            *s = rim;
+            s->at += (end ? height : -height) * CAP_RISE[k];
+            s->side *= CAP_SIZE[k];
+            s->front *= CAP_SIZE[k];
+            s->back *= CAP_SIZE[k];
+        }
+    }
+    part->nsections = n + 2 * CAP_SECTIONS;
+}
+
+/* Fritsch and Carlson's condition in Brodlie's form: the weighted harmonic mean of the two
+   secants, 0 where they disagree in sign. The cubic then never overshoots the sections. */
+static double monotone_slope(double h0, double secant0, double h1, double secant1) {
+    if (secant0 * secant1 <= 0) return 0;
+    double w0 = 2 * h1 + h0, w1 = h1 + 2 * h0;
+    return (w0 + w1) / (w0 / secant0 + w1 / secant1);
+}
+
+static void fill_cubics(BodyPart *part) {
+    int n = part->nsections;
+    double value[SECTIONS_MAX][SHAPE_VALUES], slope[SECTIONS_MAX], step[SECTIONS_MAX], secant[SECTIONS_MAX];
+    for (int i = 0; i < n; i++) values_of(&part->section[i], value[i]);
+    for (int k = 0; k < SHAPE_VALUES; k++) {
+        for (int i = 0; i + 1 < n; i++) {
+            step[i] = part->section[i + 1].at - part->section[i].at;
+            secant[i] = (value[i + 1][k] - value[i][k]) / step[i];
+        }
+        slope[0] = TIP_STEEPNESS * secant[0];
+        slope[n - 1] = TIP_STEEPNESS * secant[n - 2];
+        for (int i = 1; i + 1 < n; i++) slope[i] = monotone_slope(step[i - 1], secant[i - 1], step[i], secant[i]);
+        part->cubic[n - 1][0][k] = value[n - 1][k];
+        for (int i = 0; i + 1 < n; i++) {
+            double h = step[i], bend = 3 * secant[i] - 2 * slope[i] - slope[i + 1];
+            part->cubic[i][0][k] = value[i][k];
+            part->cubic[i][1][k] = slope[i];
+            part->cubic[i][2][k] = bend / h;
+            part->cubic[i][3][k] = (slope[i] + slope[i + 1] - 2 * secant[i]) / (h * h);
+        }
+    }
+}
+
+static double reach_of(const BodyPart *part) {
+    double reach = 0;
+    for (int i = 0; i < part->nsections; i++) {
+        const Section *s = &part->section[i];
+        double x = fabs(s->x) + s->side, z = fabs(s->z) + fmax(s->front, s->back);
+        reach = fmax(reach, fmax(x, z));
+        reach = fmax(reach, hypot(s->x, s->z) + fmax(s->side, fmax(s->front, s->back)));
+    }
+    return reach;
+}
+
+void body_part_close(BodyPart *part) {
+    add_caps(part);
+    fill_cubics(part);
+    int last = part->nsections - 1;
+    part->low = part->section[0].at;
+    part->high = part->section[last].at;
+    part->reach = reach_of(part);
+    part->buckets_per_metre = BODY_BUCKETS / (part->high - part->low);
+    for (int b = 0, i = 0; b < BODY_BUCKETS; b++) {
+        double y = part->low + b / part->buckets_per_metre;
+        while (i + 1 < last && part->section[i + 1].at <= y) i++;
+        part->bucket[b] = (unsigned char)i;
+    }
+}
+
+/* The interval that holds y, low <= y <= high: a table look-up and rarely a step or two. */
+static int interval_of(const BodyPart *part, double y) {
+    int b = (int)((y - part->low) * part->buckets_per_metre);
+    int i = part->bucket[b < BODY_BUCKETS ? b : BODY_BUCKETS - 1];
+    while (i + 2 < part->nsections && part->section[i + 1].at <= y) i++;
+    return i;
+}
+
+/* The five values and their slopes. */
+static void shape_at(const BodyPart *part, double y, double v[SHAPE_VALUES], double d[SHAPE_VALUES]) {
+    int i = interval_of(part, y);
+    double t = y - part->section[i].at;
+    const double (*c)[SHAPE_VALUES] = part->cubic[i];
+    for (int k = 0; k < SHAPE_VALUES; k++) {
+        v[k] = c[0][k] + t * (c[1][k] + t * (c[2][k] + t * c[3][k]));
+        d[k] = c[1][k] + t * (2 * c[2][k] + t * 3 * c[3][k]);
+    }
+}
+
+Section body_section_at(const BodyPart *part, double y, Section *slope) {
+    double v[SHAPE_VALUES], d[SHAPE_VALUES];
+    y = clamp(y, part->low, part->high);
+    shape_at(part, y, v, d);
+    if (slope) *slope = (Section){1, d[0], d[1], d[2], d[3], d[4]};
+    return (Section){y, v[0], v[1], v[2], v[3], v[4]};
+}
+
+Section body_section(const BodyPart *part, double at) {
+    Section s = body_section_at(part, at * part->length, NULL);
+    s.at /= part->length;
+    return s;
+}
+
+/* The surface is the zero of f(x, y, z) - 1, where f is the distance from the section's centre
+   in units of the half axes. The distance is taken to the tangent plane at the surface point
+   that lies at the same height in the same direction: exact in sign, exact to first order, and
+   for a convex part never more than the true one. */
+double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal) {
+    double beyond = fmax(p.y - part->high, part->low - p.y);
+    if (beyond >= far) return beyond;
+    double away = p.x * p.x + p.z * p.z, limit = part->reach + far;
+    if (away >= limit * limit) return fmax(far, sqrt(away) - part->reach);
+
+    double v[SHAPE_VALUES], d[SHAPE_VALUES], y = clamp(p.y, part->low + POLE, part->high - POLE);
+    shape_at(part, y, v, d);
+    double dx = p.x - v[0], dz = p.z - v[1];
+    int depth = dz >= 0 ? 3 : 4;
+    double per_x = 1 / v[2], per_z = 1 / v[depth];
+    double ux = dx * per_x, uz = dz * per_z, f = sqrt(ux * ux + uz * uz);
+    if (f > 1e-9) {
+        ux /= f;
+        uz /= f;
+    } else { /* on the axis: the way out is along the shorter half axis */
+        ux = v[2] <= v[depth];
+        uz = 1 - ux;
+    }
+    Vec3 g = vec(ux * per_x, 0, uz * per_z); /* half the gradient of f^2 on the surface */
+    g.y = -(g.x * (d[0] + ux * d[2]) + g.z * (d[1] + uz * d[depth]));
+    double per_g = 1 / vec_len(g), distance = (f - 1 + g.y * (p.y - y)) * per_g;
+    if (distance >= far) return far;
+    if (normal) *normal = vec_scale(g, per_g);
+    return distance;
+}
+
+void body_pose(const Body *b, const Pose *pose, Vec3 *positions, Vec3 *normals) {
+    for (int i = 0; i < b->nparts; i++) {
+        const BodyPart *part = &b->part[i];
+        Rigid bone = pose->bone[part->role];
+        for (int k = part->first_vertex; k < part->first_vertex + part->nvertices; k++) {
+            positions[k] = rigid_apply(bone, b->skin.position[k]);
+            if (normals) normals[k] = mat_apply(bone.r, b->skin.normal[k]);
+        }
+    }
+}

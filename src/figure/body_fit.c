@@ -1,0 +1,150 @@
+/* From the reference adult to any figure. The one idea: lengths follow the bones, girths follow
+   the whole figure. A long shin is a long shin, not a thick one; only a small share of a limb's
+   own proportion goes into its girth, and everything is bounded, so that a skeleton with odd
+   joints still carries a human body. */
+#include "figure/body.h"
+
+#include <string.h>
+
+/* Bones whose girths go together, or joints would show a step. */
+typedef enum { BUILD_TORSO, BUILD_NECK, BUILD_HEAD, BUILD_ARM, BUILD_LEG, BUILD_FOOT, BUILD_COUNT } Build;
+
+static Build build_of(Role role) {
+    switch (role) {
+    case ROLE_PELVIS: case ROLE_SPINE: case ROLE_CHEST: return BUILD_TORSO;
+    case ROLE_NECK: return BUILD_NECK;
+    case ROLE_HEAD: return BUILD_HEAD;
+    case ROLE_LEFT_THIGH: case ROLE_LEFT_SHIN: case ROLE_RIGHT_THIGH: case ROLE_RIGHT_SHIN: return BUILD_LEG;
+    case ROLE_LEFT_FOOT: case ROLE_LEFT_TOE: case ROLE_RIGHT_FOOT: case ROLE_RIGHT_TOE: return BUILD_FOOT;
+    default: return BUILD_ARM;
+    }
+}
+
+/* What the whole fit shares. */
+typedef struct {
+    const Figure *figure;
+    Figure reference;
+    double size;              /* height against the reference */
+    double girth[BUILD_COUNT];
+    double hips, shoulders;   /* factors for the torso's width at these heights */
+} Sizes;
+
+static bool is_foot(Role role) { return build_of(role) == BUILD_FOOT; }
+
+static Rigid part_frame(const Figure *f, Role role) {
+    Vec3 x = vec(1, 0, 0), y = vec(0, 1, 0), z = vec(0, 0, 1);
+    Build build = build_of(role);
+    if (build == BUILD_FOOT) {
+        y = vec(0, 0, 1);
+        z = vec(0, 1, 0);
+    } else if (build == BUILD_ARM || build == BUILD_LEG) {
+        y = vec_unit_or(vec_sub(f->end[role], f->start[role]), vec(0, -1, 0));
+        z = vec_unit_or(vec_mad(z, y, -y.z), vec(0, 1, 0));
+    }
+    x = vec_cross(y, z);
+    return (Rigid){mat_columns(x, y, z), f->start[role]};
+}
+
+/* The bone's extent along its part's y axis. */
+static double extent(const Figure *f, Role role) {
+    Rigid frame = part_frame(f, role);
+    return vec_dot(vec_sub(f->end[role], f->start[role]), mat_column(frame.r, 1));
+}
+
+/* The share of a limb's own proportion that goes into its girth. */
+static double girth_of(const Sizes *s, Build build) {
+    double own = 0, reference = 0;
+    for (int r = 0; r < ROLE_COUNT; r++) {
+        if (build_of((Role)r) != build) continue;
+        own += fmax(extent(s->figure, (Role)r), 0);
+        reference += extent(&s->reference, (Role)r);
+    }
+    return s->size * clamp(pow(own / (reference * s->size), 0.3), 0.75, 1.3);
+}
+
+static Sizes sizes_of(const Figure *figure) {
+    Sizes s = {.figure = figure, .reference = figure_reference()};
+    const Figure *ref = &s.reference;
+    s.size = figure->height / ref->height;
+    for (int b = 0; b < BUILD_COUNT; b++) s.girth[b] = girth_of(&s, (Build)b);
+    /* Heads grow less than bodies: at 1.10 m the head is 1/5.7 of the height, at 1.70 m 1/7.5. */
+    s.girth[BUILD_HEAD] = s.size * clamp(pow(s.size, -0.6), 0.8, 1.5);
+    s.girth[BUILD_NECK] = sqrt(s.girth[BUILD_HEAD] * s.girth[BUILD_TORSO]);
+    double hip = figure->start[ROLE_LEFT_THIGH].x - figure->start[ROLE_RIGHT_THIGH].x;
+    double ref_hip = ref->start[ROLE_LEFT_THIGH].x - ref->start[ROLE_RIGHT_THIGH].x;
+    double shoulder = figure->start[ROLE_LEFT_UPPER_ARM].x - figure->start[ROLE_RIGHT_UPPER_ARM].x;
+    double ref_shoulder = ref->start[ROLE_LEFT_UPPER_ARM].x - ref->start[ROLE_RIGHT_UPPER_ARM].x;
+    /* Capture systems place hip joints anywhere from 12 to 24 cm apart in bodies of equal width. */
+    s.hips = clamp(1 + 0.5 * (hip / (ref_hip * s.size) - 1), 0.95, 1.25);
+    s.shoulders = clamp(1 + 0.6 * (shoulder / (ref_shoulder * s.size) - 1), 0.85, 1.25);
+    return s;
+}
+
+/* The length that a part is made for. Bones between two joints are taken as they are, or parts
+   would not meet; ends and the short bones of the trunk are kept human. */
+static double length_of(const Sizes *s, Role role) {
+    double own = extent(s->figure, role);
+    double usual = extent(&s->reference, role) * (role == ROLE_HEAD ? s->girth[BUILD_HEAD] : s->size);
+    switch (role) {
+    case ROLE_LEFT_UPPER_ARM: case ROLE_LEFT_FOREARM: case ROLE_LEFT_THIGH: case ROLE_LEFT_SHIN:
+    case ROLE_RIGHT_UPPER_ARM: case ROLE_RIGHT_FOREARM: case ROLE_RIGHT_THIGH: case ROLE_RIGHT_SHIN:
+        return fmax(own, 0.3 * usual);
+    case ROLE_HEAD: return clamp(own, 0.9 * usual, 1.15 * usual);
+    default: return clamp(own, 0.6 * usual, 1.6 * usual);
+    }
+}
+
+/* Where the torso is wide: the hips' factor at the hip joints, the shoulders' at theirs. */
+static double torso_width(const Sizes *s, double height) {
+    double hip = s->figure->start[ROLE_LEFT_THIGH].y, shoulder = s->figure->start[ROLE_LEFT_UPPER_ARM].y;
+    double t = shoulder > hip ? clamp((height - hip) / (shoulder - hip), 0, 1) : 0;
+    return s->hips + t * (s->shoulders - s->hips);
+}
+
+/* Thighs of narrow hips make room for each other at the top; at the knee they stand straight. */
+static double thigh_shift(const Sizes *s, double side, double at) {
+    double room = s->figure->start[ROLE_LEFT_THIGH].x;
+    return clamp(side - room, 0, 0.03 * s->size) * clamp(1 - at, 0, 1);
+}
+
+/* Feet: how far the sole of the scaled part would stand above (or under) the floor. */
+static double sole_gap(const Sizes *s, Role role, double girth) {
+    double own = s->figure->start[role].y, usual = s->reference.start[role].y * girth;
+    return clamp(own - usual, -0.5 * usual, 0.03 * s->size);
+}
+
+static void size_section(const Sizes *s, const BodyPart *part, const Section *spec, Section *out) {
+    double girth = s->girth[build_of(part->role)], reference = extent(&s->reference, part->role) * girth;
+    /* Inside the bone places follow its length; what reaches past its ends follows the girth. */
+    double at = spec->at, y = at < 0 ? at * reference : at > 1 ? part->length + (at - 1) * reference : at * part->length;
+    *out = (Section){y, spec->x * girth, spec->z * girth, spec->side * girth, spec->front * girth, spec->back * girth};
+    switch (part->role) {
+    case ROLE_PELVIS: case ROLE_SPINE: case ROLE_CHEST: out->side *= torso_width(s, part->frame.t.y + y); break;
+    case ROLE_LEFT_THIGH: out->x -= thigh_shift(s, out->side, at); break;
+    case ROLE_RIGHT_THIGH: out->x += thigh_shift(s, out->side, at); break;
+    default: break;
+    }
+    if (is_foot(part->role)) out->z -= sole_gap(s, part->role, girth);
+}
+
+bool body_fit(const BodySpec *spec, const Figure *figure, int detail, Arena *arena, Body *out, Error *e) {
+    if (!(figure->height > 0) || !isfinite(figure->height)) return error_set(e, ERR_INTERNAL, "figure without a height");
+    Sizes s = sizes_of(figure);
+    memset(out, 0, sizeof *out);
+    for (int r = 0; r < ROLE_COUNT; r++) out->of_role[r] = -1;
+    out->nparts = spec->nparts;
+    out->height = figure->height;
+    out->scale = s.girth[BUILD_TORSO];
+    for (int i = 0; i < spec->nparts; i++) {
+        const BodyPartSpec *from = &spec->part[i];
+        BodyPart *part = &out->part[i];
+        out->of_role[from->role] = i;
+        part->role = from->role;
+        part->frame = part_frame(figure, from->role);
+        part->length = length_of(&s, from->role);
+        part->nsections = from->nsections;
+        for (int k = 0; k < from->nsections; k++) size_section(&s, part, &from->section[k], &part->section[k]);
+        body_part_close(part);
+    }
+    return body_skin(out, detail, arena, e);
+}

@@ -1,0 +1,202 @@
+/* The body as text: one line for a section, so that a figure can be edited with any editor and
+   compared line by line. garments/BODY.md is the manual of the format. */
+#include "figure/body.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { BODY_FILE_MAX = 1 << 20 };
+
+/* A section farther from its bone than this, or larger, is a slip of the pen (of metres and
+   centimetres, most often). In bone lengths and metres. */
+static const double AT_LIMIT = 10, CENTRE_LIMIT = 1, SIZE_LIMIT = 1;
+
+/* Sections closer than this (in bone lengths) make a step, not a surface. */
+static const double AT_STEP = 1e-3;
+
+static const char *const COLUMNS[] = {"at", "x", "z", "side", "front", "back"};
+enum { COLUMN_COUNT = 6 };
+
+static double *column_of(Section *s, int i) {
+    double *column[COLUMN_COUNT] = {&s->at, &s->x, &s->z, &s->side, &s->front, &s->back};
+    return column[i];
+}
+
+static Role mirror_of(Role role) {
+    int arm = ROLE_RIGHT_CLAVICLE - ROLE_LEFT_CLAVICLE, leg = ROLE_RIGHT_THIGH - ROLE_LEFT_THIGH, r = (int)role;
+    if (role >= ROLE_RIGHT_THIGH) return (Role)(r - leg);
+    if (role >= ROLE_LEFT_THIGH) return (Role)(r + leg);
+    if (role >= ROLE_RIGHT_CLAVICLE) return (Role)(r - arm);
+    if (role >= ROLE_LEFT_CLAVICLE) return (Role)(r + arm);
+    return ROLE_COUNT;
+}
+
+static BodyPartSpec mirrored(const BodyPartSpec *part) {
+    BodyPartSpec other = *part;
+    other.role = mirror_of(part->role);
+    for (int i = 0; i < other.nsections; i++)
+        if (other.section[i].x != 0) other.section[i].x = -other.section[i].x;
+    return other;
+}
+
+static const BodyPartSpec *find_part(const BodySpec *body, Role role) {
+    for (int i = 0; i < body->nparts; i++)
+        if (body->part[i].role == role) return &body->part[i];
+    return NULL;
+}
+
+static bool no_more_words(const Line *line, int count, Error *e) {
+    if (line->count <= count) return true;
+    return text_error(line, count, e, "unexpected '%.*s' at the end of the line",
+                      line->length[count] > 40 ? 40 : line->length[count], line->word[count]);
+}
+
+/* The role that a `part` or `mirror` line names; each body part is given once. */
+static bool read_role(const Line *line, const BodySpec *body, Role *role, Error *e) {
+    char name[32];
+    if (!text_word(line, 1, name, sizeof name, e) || !no_more_words(line, 2, e)) return false;
+    *role = role_find(name, (int)strlen(name));
+    if (*role == ROLE_COUNT) {
+        const char *best = NULL;
+        int least = 4;
+        for (int r = 0; r < ROLE_COUNT; r++) {
+            int d = text_distance(name, role_name((Role)r));
+            if (d < least) least = d, best = role_name((Role)r);
+        }
+        return best ? text_error(line, 1, e, "unknown body part '%s'; did you mean '%s'?", name, best)
+                    : text_error(line, 1, e, "unknown body part '%s'", name);
+    }
+    if (find_part(body, *role)) return text_error(line, 1, e, "part '%s' is given twice", name);
+    if (body->nparts == BODY_PARTS_MAX) return text_error(line, 0, e, "more than %d parts", BODY_PARTS_MAX);
+    return true;
+}
+
+static bool read_mirror(const Line *line, BodySpec *body, Error *e) {
+    Role role = ROLE_COUNT;
+    if (!read_role(line, body, &role, e)) return false;
+    if (mirror_of(role) == ROLE_COUNT) return text_error(line, 1, e, "'%s' has no other side", role_name(role));
+    const BodyPartSpec *other = find_part(body, mirror_of(role));
+    if (!other) return text_error(line, 1, e, "'%s' must be given before its mirror", role_name(mirror_of(role)));
+    body->part[body->nparts++] = mirrored(other);
+    return true;
+}
+
+static bool read_section(const Line *line, BodyPartSpec *part, Error *e) {
+    if (part->nsections == SPEC_SECTIONS_MAX)
+        return text_error(line, 0, e, "more than %d sections in '%s'", SPEC_SECTIONS_MAX, role_name(part->role));
+    Section *s = &part->section[part->nsections];
+    for (int i = 0; i < COLUMN_COUNT; i++) {
+        double *x = column_of(s, i), limit = i == 0 ? AT_LIMIT : i < 3 ? CENTRE_LIMIT : SIZE_LIMIT;
+        if (i + 1 >= line->count)
+            return text_error(line, i + 1, e, "a section needs at, x, z, side, front, back; '%s' is missing", COLUMNS[i]);
+        if (!text_real(line, i + 1, x, e)) return false;
+        if (fabs(*x) > limit)
+            return text_error(line, i + 1, e, "%s must be from %g to %g", COLUMNS[i], i < 3 ? -limit : 0.0, limit);
+        if (i >= 3 && *x < 1e-3) return text_error(line, i + 1, e, "%s must be at least 0.001 m", COLUMNS[i]);
+    }
+    if (!no_more_words(line, COLUMN_COUNT + 1, e)) return false;
+    if (part->nsections && s->at < s[-1].at + AT_STEP)
+        return text_error(line, 1, e, "at must grow from section to section by %g or more", AT_STEP);
+    part->nsections++;
+    return true;
+}
+
+/* A part is complete when the next line begins something else; `where` is that line. */
+static bool end_part(const BodyPartSpec *open, const Line *where, Error *e) {
+    if (!open || open->nsections >= 2) return true;
+    return text_error(where, 0, e, "part '%s' has %d section%s, it needs at least 2", role_name(open->role),
+                      open->nsections, open->nsections == 1 ? "" : "s");
+}
+
+static bool read_header(Cursor *c, Line *line, BodySpec *out, Error *e) {
+    if (!text_line(c, line, e)) {
+        if (e->kind != ERR_NONE) return false;
+        return error_at(e, ERR_INPUT, text_place(c, c->at), "empty body file: expected 'body NAME'");
+    }
+    if (!text_is(line, 0, "body")) return text_error(line, 0, e, "expected 'body NAME' in the first line");
+    return text_word(line, 1, out->name, sizeof out->name, e) && no_more_words(line, 2, e);
+}
+
+bool body_parse(const Text *text, BodySpec *out, Error *e) {
+    memset(out, 0, sizeof *out);
+    Cursor c = text_start(text);
+    Line line = {0};
+    if (!read_header(&c, &line, out, e)) return false;
+    BodyPartSpec *open = NULL;
+    while (text_line(&c, &line, e)) {
+        if (text_is(&line, 0, "section")) {
+            if (!open) return text_error(&line, 0, e, "'section' outside of a part");
+            if (!read_section(&line, open, e)) return false;
+            continue;
+        }
+        if (!end_part(open, &line, e)) return false;
+        open = NULL;
+        if (text_is(&line, 0, "part")) {
+            Role role = ROLE_COUNT;
+            if (!read_role(&line, out, &role, e)) return false;
+            open = &out->part[out->nparts++];
+            open->role = role;
+        } else if (text_is(&line, 0, "mirror")) {
+            if (!read_mirror(&line, out, e)) return false;
+        } else {
+            return text_error(&line, 0, e, "expected 'part', 'section' or 'mirror', found '%.*s'",
+                              line.length[0] > 40 ? 40 : line.length[0], line.word[0]);
+        }
+    }
+    if (e->kind != ERR_NONE || !end_part(open, &line, e)) return false;
+    return out->nparts > 0 || text_error(&line, line.count, e, "a body needs at least one part");
+}
+
+bool body_read(const char *path, Arena *scratch, BodySpec *out, Error *e) {
+    Text text;
+    return text_read(path, BODY_FILE_MAX, scratch, &text, e) && body_parse(&text, out, e);
+}
+
+/* The fewest digits that read back as x: "0.052", not "0.051999999999999998". */
+static void write_number(double x, FILE *out) {
+    char digits[40];
+    for (int precision = 1; precision <= 17; precision++) {
+        snprintf(digits, sizeof digits, "%.*g", precision, x);
+        if (strtod(digits, NULL) == x) break;
+    }
+    fprintf(out, " %s", digits);
+}
+
+static bool same_part(const BodyPartSpec *a, const BodyPartSpec *b) {
+    if (a->role != b->role || a->nsections != b->nsections) return false;
+    for (int i = 0; i < a->nsections; i++) {
+        Section s = a->section[i], t = b->section[i];
+        for (int k = 0; k < COLUMN_COUNT; k++)
+            if (*column_of(&s, k) != *column_of(&t, k)) return false;
+    }
+    return true;
+}
+
+/* Is part i the mirror of one that stands before it? */
+static bool is_mirror(const BodySpec *body, int i) {
+    for (int k = 0; k < i; k++) {
+        if (mirror_of(body->part[k].role) != body->part[i].role) continue;
+        BodyPartSpec other = mirrored(&body->part[k]);
+        return same_part(&other, &body->part[i]);
+    }
+    return false;
+}
+
+bool body_write(const BodySpec *body, FILE *out) {
+    fprintf(out, "body %s\n", body->name);
+    for (int i = 0; i < body->nparts; i++) {
+        const BodyPartSpec *part = &body->part[i];
+        if (is_mirror(body, i)) {
+            fprintf(out, "\nmirror %s\n", role_name(part->role));
+            continue;
+        }
+        fprintf(out, "\npart %s\n#       at x z side front back\n", role_name(part->role));
+        for (int k = 0; k < part->nsections; k++) {
+            Section s = part->section[k];
+            fprintf(out, "section");
+            for (int j = 0; j < COLUMN_COUNT; j++) write_number(*column_of(&s, j), out);
+            fprintf(out, "\n");
+        }
+    }
+    return !ferror(out);
+}
