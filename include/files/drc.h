@@ -7,21 +7,22 @@
 
 /* Zero means the default in brackets. */
 typedef struct {
-    int position_bits;  /* 1..30 [14] */
-    int normal_bits;    /* 1..30 [10] */
+    int position_bits;  /* 1..30 [14]; a step is the largest extent / (2^bits - 1) */
+    int normal_bits;    /* 2..30 [10] */
     int uv_bits;        /* 1..30 [12] */
     int speed;          /* 0 smallest .. 10 fastest; stored as speed + 1 so that 0 = [7] */
-    bool keep_order;    /* sequential encoding: vertices stay in order */
+    bool keep_order;    /* sequential encoding: vertices and triangles stay in order */
 } DrcOptions;
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-/* Encodes the mesh (positions times `unit`, normals and UVs where present) and writes it like
-   obj_write: temporary name, then rename. ERR_OUTPUT; ERR_INTERNAL where Draco refuses. */
+/* Encodes the mesh (positions times `unit`, normals and u, w where present) and writes it as
+   obj_write does: temporary name, then rename. *bytes, if not NULL, gets the size. ERR_OUTPUT;
+   ERR_INTERNAL where Draco refuses. */
 MUST_CHECK bool drc_write(const char *path, const Mesh *mesh, double unit, const DrcOptions *options,
                           long long *bytes, Error *e);
-/* Decodes positions and triangles (normals if present) into the arena. ERR_INPUT. */
+/* Decodes positions and triangles, normals and u, w if present, into the arena. ERR_INPUT. */
 MUST_CHECK bool drc_read(const char *path, Arena *arena, Mesh *out, Error *e);
 #ifdef __cplusplus
 }

@@ -112,7 +112,7 @@ bool output_folder(const char *path, Error *e) {
     size_t n = strlen(path);
     if (n >= sizeof part) return cannot("make the folder", path, ENAMETOOLONG, e);
     memcpy(part, path, n + 1);
-    for (size_t i = 1; i <= n; i++) {
+    for (size_t i = n > 0; i <= n; i++) {
         if (path[i] != '/' && path[i] != 0) continue;
         part[i] = 0;
         struct stat info;

@@ -1,0 +1,158 @@
+/* Draco files: what is decoded is what was given, within half a step of the quantisation. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "files/drc.h"
+#include "files/obj.h"
+#include "folder.h"
+#include "sheet.h"
+#include "tap.h"
+
+/* A step is the largest extent, here 1.1 along x and z, cut in 2^bits - 1; floats add a little. */
+static double tolerance(int bits, double unit) { return (0.5 * 1.1 / (pow(2, bits) - 1) + 2.4e-7) * unit; }
+
+static double distance(Vec3 a, Vec3 b) { return fmax(fabs(a.x - b.x), fmax(fabs(a.y - b.y), fabs(a.z - b.z))); }
+
+/* original[i]: the vertex of `a` at the place of vertex i of b; false where there is none. */
+static bool match_vertices(const Mesh *a, const Mesh *b, double unit, double reach, int *original) {
+    for (int i = 0; i < b->nvertices; i++) {
+        original[i] = -1;
+        for (int k = 0; k < a->nvertices; k++)
+            if (distance(vec_scale(a->position[k], unit), b->position[i]) <= reach) original[i] = k;
+        if (original[i] < 0) return false;
+    }
+    return true;
+}
+
+static int rank(const int v[3]) { return v[0] < v[1] ? (v[0] < v[2] ? 0 : 2) : (v[1] < v[2] ? 1 : 2); }
+
+static int compare_triangles(const void *a, const void *b) { return memcmp(a, b, sizeof(Triangle)); }
+
+/* Turned so that the smallest index stands first, and sorted: equal for equal sets of oriented triangles. */
+static void sort_triangles(const Mesh *m, const int *original, Triangle *out) {
+    for (int t = 0; t < m->ntriangles; t++) {
+        int v[3], first;
+        for (int c = 0; c < 3; c++) v[c] = original ? original[m->triangle[t].v[c]] : m->triangle[t].v[c];
+        first = rank(v);
+        out[t] = (Triangle){{v[first], v[(first + 1) % 3], v[(first + 2) % 3]}};
+    }
+    qsort(out, (size_t)m->ntriangles, sizeof *out, compare_triangles);
+}
+
+static bool same_surface(const Mesh *a, const Mesh *b, double unit, double reach) {
+    static Triangle wanted[TRIANGLES], found[TRIANGLES];
+    static int original[VERTICES];
+    if (b->ntriangles != a->ntriangles || b->nvertices != a->nvertices || !match_vertices(a, b, unit, reach, original)) return false;
+    sort_triangles(a, NULL, wanted);
+    sort_triangles(b, original, found);
+    bool good = memcmp(wanted, found, sizeof wanted) == 0;
+    for (int i = 0; good && i < b->nvertices; i++)
+        good = distance(b->normal[i], a->normal[original[i]]) < 0.01 && fabs(b->u[i] - a->u[original[i]]) < 2e-4 && fabs(b->w[i] - a->w[original[i]]) < 2e-4;
+    return good;
+}
+
+static void test_round_trip(void) {
+    static Sheet sheet;
+    make_sheet(&sheet);
+    static const struct { DrcOptions options; double unit; int bits; const char *what; } cases[] = {
+        {{0}, 1, 14, "default"},
+        {{0}, 100, 14, "centimetres"},
+        {{.position_bits = 9}, 1, 9, "9 bits"},
+        {{.position_bits = 20, .speed = 1}, 1, 20, "20 bits, smallest"},
+        {{.position_bits = 16, .speed = 11}, 1, 16, "16 bits, fastest"},
+        {{.keep_order = true}, 1, 14, "order kept"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Arena arena = {0};
+        Error e = {0};
+        Mesh m;
+        long long bytes = 0;
+        struct stat info;
+        const char *path = in_folder("sheet.drc");
+        bool good = drc_write(path, &sheet.mesh, cases[k].unit, &cases[k].options, &bytes, &e) && stat(path, &info) == 0 &&
+                    info.st_size == bytes && drc_read(path, &arena, &m, &e);
+        good = good && same_surface(&sheet.mesh, &m, cases[k].unit, tolerance(cases[k].bits, cases[k].unit));
+        if (!OK(good, "the same triangles within half a step: %s, %lld bytes", cases[k].what, bytes)) printf("# %s\n", e.text);
+        if (cases[k].options.keep_order)
+            OK(memcmp(m.triangle, sheet.triangle, sizeof sheet.triangle) == 0 &&
+               distance(m.position[VERTICES - 1], sheet.position[VERTICES - 1]) < tolerance(14, 1), "vertices and triangles stay in order");
+        arena_free(&arena);
+    }
+}
+
+static size_t load(const char *path, char *data, size_t n) {
+    FILE *f = fopen(path, "rb");
+    size_t got = f ? fread(data, 1, n, f) : 0;
+    if (f) fclose(f);
+    return got;
+}
+
+static void save(const char *path, const char *data, size_t n) {
+    FILE *f = fopen(path, "wb");
+    if (!f) return;
+    fwrite(data, 1, n, f);
+    fclose(f);
+}
+
+static void test_same_bytes(void) {
+    static Sheet sheet;
+    static char first[20000], second[20000];
+    make_sheet(&sheet);
+    Error e = {0};
+    DrcOptions options = {0};
+    bool good = drc_write(in_folder("a.drc"), &sheet.mesh, 1, &options, NULL, &e) && drc_write(in_folder("b.drc"), &sheet.mesh, 1, &options, NULL, &e);
+    size_t n = load(in_folder("a.drc"), first, sizeof first);
+    OK(good && n > 100 && n == load(in_folder("b.drc"), second, sizeof second) && memcmp(first, second, n) == 0, "the same mesh gives the same bytes");
+}
+
+static void test_refusals(void) {
+    static Sheet sheet;
+    make_sheet(&sheet);
+    Error e = {0};
+    Arena arena = {0};
+    Mesh m = sheet.mesh;
+    DrcOptions options = {0};
+    sheet.position[7].y = INFINITY;
+    OK(!drc_write(in_folder("x.drc"), &m, 1, &options, NULL, &e) && e.kind == ERR_INTERNAL, "a number that is not finite is refused: %s", e.text);
+    make_sheet(&sheet);
+    e = (Error){0};
+    OK(!drc_write(in_folder("x.drc"), &m, 1, &(DrcOptions){.position_bits = 31}, NULL, &e) && e.kind == ERR_INTERNAL, "31 bits are refused: %s", e.text);
+    e = (Error){0};
+    OK(!drc_write(in_folder("none/x.drc"), &m, 1, &options, NULL, &e) && e.kind == ERR_OUTPUT, "a missing folder: %s", e.text);
+    e = (Error){0};
+    OK(!drc_read(in_folder("none.drc"), &arena, &m, &e) && e.kind == ERR_INPUT, "a missing file: %s", e.text);
+    e = (Error){0};
+    OK(!drc_read(folder, &arena, &m, &e) && e.kind == ERR_INPUT, "a folder: %s", e.text);
+    e = (Error){0};
+    save(in_folder("text.drc"), "solid text\n", 11);
+    OK(!drc_read(in_folder("text.drc"), &arena, &m, &e) && e.kind == ERR_INPUT, "a text: %s", e.text);
+    arena_free(&arena);
+}
+
+static void test_cut(void) {
+    static char data[20000];
+    size_t n = load(in_folder("a.drc"), data, sizeof data);
+    Arena arena = {0};
+    int refused = 0, tried = 0;
+    for (size_t k = 0; k < n; k += k < 64 ? 1 : 37, tried++) {
+        Error e = {0};
+        Mesh m;
+        save(in_folder("cut.drc"), data, k);
+        if (!drc_read(in_folder("cut.drc"), &arena, &m, &e) && e.kind == ERR_INPUT) refused++;
+        arena_reset(&arena);
+    }
+    OK(refused == tried, "cut short it is refused (%d of %d)", refused, tried);
+    arena_free(&arena);
+}
+
+int main(void) {
+    if (!folder_make()) return 1;
+    test_round_trip();
+    test_same_bytes();
+    test_refusals();
+    test_cut();
+    folder_remove();
+    return tap_done();
+}
