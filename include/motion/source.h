@@ -1,0 +1,66 @@
+/* What the readers of the formats share with motion.c. Private to this floor. */
+#ifndef MOTION_SOURCE_H
+#define MOTION_SOURCE_H
+
+#include "motion/motion.h"
+#include "motion/stream.h"
+
+/* Every stride-th frame has a mark, from which reading can start. When the marks are used up
+   every second goes and the stride doubles, so the index of any file is of one size. */
+enum { MARKS_MAX = 1024 };
+
+/* What an AMC file asks of its reader: the skeleton's names and where the values go. */
+typedef struct Acclaim Acclaim;
+
+struct MotionSource {
+    int fd;
+    const char *name; /* for messages */
+    long long size;   /* of the file, to see whether it has changed */
+    long long changed_s, changed_ns;
+    Skeleton skeleton;
+    int nframes;
+    Mark *mark;
+    int nmarks, stride;
+    const Acclaim *acclaim; /* NULL for BVH */
+};
+
+/* A file that is being opened. */
+typedef struct {
+    Stream in;
+    const MotionOptions *options;
+    int max_joints, max_frames;
+    Arena *arena, *scratch; /* of the motion; of this opening */
+    Notes *notes;
+    Motion *motion;
+    MotionSource *source;
+    struct Positions *positions;
+} Opening;
+
+/* bvh.c: reads the head and all frames; row reads one frame where the stream stands. */
+MUST_CHECK bool bvh_open(Opening *o, Error *e);
+MUST_CHECK bool bvh_row(Stream *s, const MotionSource *source, double *row, Error *e);
+
+/* acclaim.c: the ASF skeleton at `asf`, then all frames of the AMC file. */
+MUST_CHECK bool acclaim_open(Opening *o, Error *e);
+MUST_CHECK bool acclaim_row(Stream *s, const MotionSource *source, double *row, Error *e);
+
+/* motion.c: opens a regular file, or spools anything else. ERR_INPUT for a directory, a
+   missing file, an empty one or one with NUL bytes at its start. */
+MUST_CHECK bool source_file(const char *path, int *fd, Error *e);
+/* Copies the joints into the motion's arena and says which names are there twice. */
+MUST_CHECK bool source_skeleton(Opening *o, const Joint *joint, int njoints, Error *e);
+/* The stream stands at the first value of `frame`: remember it if it is time. */
+void source_mark(MotionSource *source, int frame, Mark mark);
+/* A whole frame has been read. */
+void source_sample(Opening *o, int frame, const double *row);
+/* Checks a frame time that the file says, or takes the one of --fps. */
+MUST_CHECK bool source_rate(Opening *o, double frame_time, Error *e);
+
+/* position.c: do position channels replace the OFFSET, or add to it? Looks at frames that
+   are spread evenly over the motion. */
+typedef struct Positions Positions;
+MUST_CHECK bool positions_start(const Skeleton *s, Arena *arena, Positions **out, Error *e);
+void positions_add(Positions *p, int frame, const double *row);
+bool positions_are_deltas(Positions *p);
+
+#endif
