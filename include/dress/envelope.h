@@ -1,0 +1,31 @@
+/* The global shape of a loose garment: a tube of rings that holds both legs in any pose. */
+#ifndef DRESS_ENVELOPE_H
+#define DRESS_ENVELOPE_H
+
+#include "garment/fit.h"
+
+/* One pose seen by the envelope; private inside. */
+typedef struct {
+    const Fit *fit;
+    const Body *body;
+    double cm;                         /* a hundredth of a metre on a figure of 1.70 m */
+    Vec3 hip[2], knee[2];              /* left, right; world */
+    Vec3 down, thigh[2], lower[2];     /* unit directions: pelvis, thighs, below the knees */
+    double thigh_length[2], rest_hip;  /* metres; half the distance of the hip joints */
+    double hip_height;                 /* of the hip joints in the canonical stance */
+    Vec3 root;                         /* between the hip joints */
+    Mat3 pelvis;
+    double flexion;                    /* 0..1: how far the front hangs between pelvis and legs */
+} Envelope;
+
+/* Prepares the rings for a pose. */
+void envelope_pose(Envelope *env, const Fit *fit, const Figure *figure, const Body *body, const Pose *pose);
+
+/* A point of the tube: s metres below the hip joints along the body (negative above), (x, z)
+   on the unit circle of the ring, x to the left, z to the front. World frame, metres. */
+Vec3 envelope_point(const Envelope *env, double s, double x, double z);
+
+/* s of a ring of the fit. */
+double envelope_place(const Envelope *env, int ring);
+
+#endif

@@ -1,0 +1,63 @@
+/* A garment on one figure: rings become curves of control points, rows become root patches,
+   and every control point that two patches share is one and the same.
+
+   Frame: the canonical stance of the figure (metres). Nothing here depends on a pose. */
+#ifndef GARMENT_FIT_H
+#define GARMENT_FIT_H
+
+#include "garment/garment.h"
+
+/* A point of a ring (joined stations are one node) with the bones it follows. */
+typedef struct {
+    Vec3 rest;
+    Binding binding;
+} FitNode;
+
+/* One cubic arc of a ring. Control points 0 and 1 follow node a, 2 and 3 node b, so that arcs
+   that meet at a node keep a common tangent there in every pose. */
+typedef struct {
+    int node[2];
+    Vec3 rest[4];
+    int ring;
+    double unit[4][2]; /* the same points on the unit circle: x to the left, z to the front */
+} FitCurve;
+
+typedef struct {
+    const char *name;
+    int nrows, curve[GARMENT_ROWS_MAX];
+    double height[GARMENT_ROWS_MAX]; /* parameter length from this row to the next, metres at rest */
+} FitPanel;
+
+/* A root patch: panel and row, or a raw patch. point[4 * i + j] names control point B_ij:
+   patches that meet have the same four names along their common edge. */
+typedef struct {
+    int panel, row;  /* panel -1: raw patch `row` */
+    int point[16];
+    bool flip;       /* du x dw points into the body */
+    unsigned collide;/* roles, bit 1 << role */
+    unsigned pinned; /* sides that may not move, bit 1 << Side */
+} FitPatch;
+
+/* What the envelope needs of a ring, in the canonical stance. */
+typedef struct { double y, side, front, back, x, z; } FitRing;
+
+typedef struct {
+    const Garment *garment;
+    double scale;      /* girth of the figure against the reference */
+    double height;     /* stature, metres */
+    int nnodes, ncurves, npanels, npatches, npoints;
+    FitNode *node;
+    FitCurve *curve;
+    FitPanel *panel;
+    FitPatch *patch;
+    FitRing ring[GARMENT_RINGS_MAX];
+    Vec3 (*raw)[16];   /* control points of raw patches, sized to the figure */
+    unsigned own;      /* all parts that any patch collides with */
+} Fit;
+
+/* Sizes `garment` to the figure. The garment must outlive the fit. ERR_INPUT where it names a
+   part that this body does not have or where shared edges do not agree. */
+MUST_CHECK bool fit_garment(const Garment *garment, const Figure *figure, const Body *body, Arena *arena, Fit *out,
+                            Error *e);
+
+#endif

@@ -1,0 +1,187 @@
+/* The envelope. A ring of a skirt is not tied to one bone: it is the smallest ellipse that holds
+   the discs of both legs where they are in this pose, widened to its rest size as long as the
+   legs leave cloth for it. Since the global shape already contains the legs, what is left for
+   the local deformation is small, and the body's normal is the right way to push.
+
+   Along the body a ring stands at arc length s: above the hip joints on the pelvis axis, below on
+   the mean of two paths down the legs. The paths are lines with kinks at hip and knee, rounded by
+   a triangular window; such a convolution has a closed form. */
+#include "dress/envelope.h"
+
+/* Reasons: half the shin's turn keeps the hem from folding behind a bent knee (1 folds it, 0 lets
+   the shins out); 10 cm of rounding is a thigh's radius; the ring may not turn past the seat. */
+static const double SHIN_SHARE = 0.5, ROUNDING_CM = 10, TURN_LIMIT = 115 * PI / 180;
+
+/* Convolution of max(0, x) with a unit triangle of half width r, and its derivative. */
+static double ramp(double x, double r) {
+    if (x <= -r) return 0;
+    if (x >= r) return x;
+    double a = x < 0 ? x + r : r - x;
+    return (x < 0 ? 0 : x) + a * a * a / (6 * r * r);
+}
+
+static double ramp_slope(double x, double r) {
+    if (x <= -r) return 0;
+    if (x >= r) return 1;
+    double a = x < 0 ? x + r : r - x;
+    return x < 0 ? a * a / (2 * r * r) : 1 - a * a / (2 * r * r);
+}
+
+/* The path down one leg and its unit tangent. */
+static Vec3 leg_path(const Envelope *env, int leg, double s, Vec3 *tangent) {
+    double r = ROUNDING_CM * env->cm;
+    Vec3 at_hip = vec_sub(env->thigh[leg], env->down), at_knee = vec_sub(env->lower[leg], env->thigh[leg]);
+    double k = s - env->thigh_length[leg];
+    Vec3 p = vec_mad(env->hip[leg], env->down, s);
+    p = vec_mad(p, at_hip, ramp(s, r));
+    p = vec_mad(p, at_knee, ramp(k, r));
+    Vec3 t = vec_mad(vec_mad(env->down, at_hip, ramp_slope(s, r)), at_knee, ramp_slope(k, r));
+    *tangent = vec_unit_or(t, env->down);
+    return p;
+}
+
+/* Rest size of the tube at s: a Catmull-Rom spline through the rings' sizes, straight beyond
+   the first and the last. Every value is the same sum of four rings, so the weights are found once. */
+static FitRing rest_size(const Envelope *env, double s) {
+    const Fit *fit = env->fit;
+    int n = fit->garment->nrings, k = 0, at[4];
+    double place[4], weight[4] = {0, 0, 0, 0};
+    while (k + 2 < n && s > envelope_place(env, k + 1)) k++;
+    for (int i = 0; i < 4; i++) {
+        at[i] = k - 1 + i < 0 ? 0 : k - 1 + i > n - 1 ? n - 1 : k - 1 + i;
+        place[i] = envelope_place(env, at[i]);
+    }
+    double h = fmax(place[2] - place[1], 1e-9), t = clamp((s - place[1]) / h, 0, 1), over = s - place[1] - t * h;
+    double step = t * t * (3 - 2 * t), leave = h * t * (1 - t) * (1 - t), arrive = -h * t * t * (1 - t);
+    if (over < 0) leave += over;
+    if (over > 0) arrive += over;
+    int before = place[1] > place[0] ? 0 : 1, after = place[3] > place[2] ? 3 : 2; /* chords of the end slopes */
+    double leave_chord = leave / (h + place[1] - place[before]), arrive_chord = arrive / (h + place[after] - place[2]);
+    weight[1] += 1 - step;
+    weight[2] += step;
+    weight[2] += leave_chord;
+    weight[before] -= leave_chord;
+    weight[after] += arrive_chord;
+    weight[1] -= arrive_chord;
+    FitRing out = {0};
+    for (int i = 0; i < 4; i++) {
+        const FitRing *r = &fit->ring[at[i]];
+        out.side += weight[i] * r->side;
+        out.front += weight[i] * r->front;
+        out.back += weight[i] * r->back;
+        out.z += weight[i] * r->z;
+    }
+    return out;
+}
+
+static double leg_radius(const Envelope *env, double s) {
+    const Body *b = env->body;
+    bool shin = s > env->thigh_length[0];
+    const BodyPart *part = &b->part[b->of_role[shin ? ROLE_LEFT_SHIN : ROLE_LEFT_THIGH]];
+    Section c = body_section(part, clamp((shin ? s - env->thigh_length[0] : s) / part->length, 0, 1));
+    return fmax(c.side + fabs(c.x), fmax(c.front + c.z, c.back - c.z));
+}
+
+typedef struct { double xx, xz, zz; } Sym2;
+
+/* An ellipse u^T C^-1 u = 1 that holds the discs of radius rho round +-delta: the closed form
+   that is tight along delta and across it. */
+static Sym2 hold_discs(double dx, double dz, double rho) {
+    double size = fmax(hypot(dx, dz), 1e-9), k = 1 + rho / size, round = rho * rho + rho * size;
+    return (Sym2){k * dx * dx + round, k * dx * dz, k * dz * dz + round};
+}
+
+/* The symmetric square root. */
+static Sym2 root_of(Sym2 c) {
+    double det = sqrt(fmax(c.xx * c.zz - c.xz * c.xz, 0)), scale = 1 / sqrt(fmax(c.xx + c.zz + 2 * det, 1e-12));
+    return (Sym2){(c.xx + det) * scale, c.xz * scale, (c.zz + det) * scale};
+}
+
+/* max(0, x) with a soft corner of width r. */
+static double soft_positive(double x, double r) { return 0.5 * (x + sqrt(x * x + r * r)); }
+
+/* The ellipse of the ring at s for leg centres at +-(dx, dz) in ring axes: it holds both legs,
+   and keeps the trace of the rest ellipse, which is about its perimeter squared, while it can. */
+static Sym2 ring_ellipse(const Envelope *env, double s, const FitRing *rest, double dx, double dz, double share) {
+    double cm = env->cm, depth = 0.5 * (rest->front + rest->back), offset = 0.5 * fabs(rest->front - rest->back);
+    double rho = leg_radius(env, s) + 2.2 * cm + 0.5 * offset;
+    if (fabs(dx) < 3 * cm) dx = dx < 0 ? -3 * cm : 3 * cm;
+    Sym2 need = hold_discs(dx, dz, rho), calm = hold_discs(env->rest_hip, 0, rho);
+    double nx = fmax(rest->side * rest->side - calm.xx, cm * cm), nz = fmax(depth * depth - calm.zz, cm * cm);
+    double spare = soft_positive(rest->side * rest->side + depth * depth - need.xx - need.zz, 10 * cm * cm);
+    double wx = spare * nx / (nx + nz), wz = spare * nz / (nx + nz);
+    return (Sym2){share * (need.xx + wx) + (1 - share) * rest->side * rest->side, share * need.xz,
+                  share * (need.zz + wz) + (1 - share) * depth * depth};
+}
+
+/* Rotation that turns the pelvis' ring frame to a tube direction t, at most to the seat. */
+static Mat3 ring_axes(const Envelope *env, Vec3 t) {
+    double angle = acos(clamp(vec_dot(t, env->down), -1, 1));
+    if (angle > TURN_LIMIT) {
+        Vec3 across = vec_unit_or(vec_mad(t, env->down, -vec_dot(t, env->down)), mat_column(env->pelvis, 2));
+        t = vec_add(vec_scale(env->down, cos(TURN_LIMIT)), vec_scale(across, sin(TURN_LIMIT)));
+    }
+    return mat_mul(mat_between(env->down, t), env->pelvis);
+}
+
+/* The ring that turns with the legs. */
+static Vec3 turning_point(const Envelope *env, double s, double x, double z) {
+    double cm = env->cm, share = smoothstep(-8 * cm, 10 * cm, s);
+    Vec3 tangent[2], path[2];
+    for (int leg = 0; leg < 2; leg++) path[leg] = leg_path(env, leg, s, &tangent[leg]);
+    Vec3 t = vec_scale(vec_add(tangent[0], tangent[1]), share);
+    t = vec_unit_or(vec_mad(t, env->down, 2 * (1 - share)), env->down);
+    Mat3 axes = ring_axes(env, t);
+    Vec3 ax = mat_column(axes, 0), az = mat_column(axes, 2);
+    FitRing rest = rest_size(env, s);
+    Vec3 half = vec_scale(vec_sub(path[0], path[1]), 0.5);
+    Sym2 m = root_of(ring_ellipse(env, s, &rest, vec_dot(half, ax), vec_dot(half, az), share));
+    Vec3 centre = vec_lerp(vec_mad(env->root, env->down, s), vec_mid(path[0], path[1]), share);
+    centre = vec_mad(centre, az, rest.z + 0.5 * (rest.front - rest.back));
+    return vec_mad(vec_mad(centre, ax, m.xx * x + m.xz * z), az, m.xz * x + m.zz * z);
+}
+
+/* The same ring as it is at rest, carried by the pelvis. */
+static Vec3 pelvis_point(const Envelope *env, double s, double x, double z) {
+    FitRing rest = rest_size(env, s);
+    double depth = 0.5 * (rest.front + rest.back);
+    Vec3 p = vec(rest.side * x, -s, rest.z + 0.5 * (rest.front - rest.back) + depth * z);
+    return vec_add(env->root, mat_apply(env->pelvis, p));
+}
+
+double envelope_place(const Envelope *env, int ring) { return env->hip_height - env->fit->ring[ring].y; }
+
+Vec3 envelope_point(const Envelope *env, double s, double x, double z) {
+    Vec3 turning = turning_point(env, s, x, z);
+    double front = clamp(0.5 + 0.5 * z, 0, 1) * env->flexion;
+    if (front <= 0) return turning;
+    /* Rings of a bent hip cross in the groin; there the front hangs straight from the pelvis to
+       where the lap begins, and the back keeps the rings that wrap the seat. */
+    double lap = 14 * env->cm, top = envelope_place(env, 0);
+    double beyond = lap + soft_positive(s - lap, 2 * env->cm), down = smoothstep(top, lap, s);
+    Vec3 linear = vec_lerp(pelvis_point(env, s, x, z), turning_point(env, beyond, x, z), down);
+    return vec_lerp(turning, linear, front);
+}
+
+void envelope_pose(Envelope *env, const Fit *fit, const Figure *figure, const Body *body, const Pose *pose) {
+    static const Role thigh[2] = {ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH}, shin[2] = {ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN};
+    *env = (Envelope){.fit = fit, .body = body, .cm = fit->height / 170, .pelvis = pose->bone[ROLE_PELVIS].r};
+    env->down = vec_scale(mat_column(env->pelvis, 1), -1);
+    for (int leg = 0; leg < 2; leg++) {
+        const Rigid *t = &pose->bone[thigh[leg]], *s = &pose->bone[shin[leg]];
+        env->hip[leg] = rigid_apply(*t, figure->start[thigh[leg]]);
+        env->knee[leg] = rigid_apply(*t, figure->end[thigh[leg]]);
+        env->thigh[leg] = vec_unit_or(vec_sub(env->knee[leg], env->hip[leg]), env->down);
+        Vec3 ankle = rigid_apply(*s, figure->end[shin[leg]]), knee = rigid_apply(*s, figure->start[shin[leg]]);
+        Vec3 direction = vec_unit_or(vec_sub(ankle, knee), env->thigh[leg]);
+        env->lower[leg] = vec_unit_or(vec_lerp(env->thigh[leg], direction, SHIN_SHARE), env->thigh[leg]);
+        env->thigh_length[leg] = vec_dist(env->hip[leg], env->knee[leg]);
+    }
+    env->root = vec_mid(env->hip[0], env->hip[1]);
+    env->rest_hip = 0.5 * vec_dist(figure->start[ROLE_LEFT_THIGH], figure->start[ROLE_RIGHT_THIGH]);
+    env->hip_height = figure->start[ROLE_LEFT_THIGH].y;
+    Vec3 mean = vec_unit_or(vec_add(env->thigh[0], env->thigh[1]), env->down);
+    Vec3 forward = mat_column(env->pelvis, 2);
+    double angle = atan2(vec_dot(mean, forward), vec_dot(mean, env->down));
+    env->flexion = smoothstep(30 * PI / 180, 75 * PI / 180, angle < -0.5 * PI ? angle + 2 * PI : angle);
+}

@@ -1,0 +1,178 @@
+/* Global deformation. Rings move, panels are lofted through them again in every frame: that keeps
+   a panel smooth across its rows, which points that follow their own bones one by one would not.
+
+   bones: each node of a ring moves with the blend of its bones; the arcs' handles turn with their
+   node. envelope: the rings are those of dress/envelope. Raw patches: point by point (the paper). */
+#include "dress/follow.h"
+
+#include <string.h>
+
+#include "dress/envelope.h"
+
+bool follow_reserve(Follower *f, const Fit *fit, const Figure *figure, const Body *body, Arena *arena, Error *e) {
+    *f = (Follower){.fit = fit, .figure = figure, .body = body};
+    f->curve = arena_array(arena, (size_t)fit->ncurves, sizeof *f->curve, e);
+    f->slope = arena_array(arena, (size_t)fit->npanels, sizeof *f->slope, e);
+    f->node_slope = ARENA_NEW(arena, Vec3, fit->nnodes, e);
+    f->node_uses = ARENA_NEW(arena, int, fit->nnodes, e);
+    return f->curve && f->slope && f->node_slope && f->node_uses;
+}
+
+/* Weighted bones: positions blend linearly, directions by the mean rotation, so that handles
+   keep their length where bones turn far apart. */
+static Rigid blend(const Pose *pose, const Binding *b, Vec3 rest) {
+    Vec3 p = {0, 0, 0};
+    Quat mean = {0, 0, 0, 0}, first = quat_from_mat(pose->bone[b->bone[0]].r);
+    for (int i = 0; i < b->n; i++) {
+        const Rigid *g = &pose->bone[b->bone[i]];
+        p = vec_mad(p, rigid_apply(*g, rest), b->weight[i]);
+        Quat q = quat_from_mat(g->r);
+        double s = q.w * first.w + q.x * first.x + q.y * first.y + q.z * first.z < 0 ? -b->weight[i] : b->weight[i];
+        mean = (Quat){mean.w + s * q.w, mean.x + s * q.x, mean.y + s * q.y, mean.z + s * q.z};
+    }
+    double n = sqrt(mean.w * mean.w + mean.x * mean.x + mean.y * mean.y + mean.z * mean.z);
+    if (n < 1e-6) mean = first, n = 1;
+    Mat3 r = mat_from_quat((Quat){mean.w / n, mean.x / n, mean.y / n, mean.z / n});
+    return (Rigid){r, vec_sub(p, mat_apply(r, rest))};
+}
+
+static void curves_by_bones(Follower *f, const Pose *pose) {
+    for (int c = 0; c < f->fit->ncurves; c++) {
+        const FitCurve *curve = &f->fit->curve[c];
+        for (int end = 0; end < 2; end++) {
+            const FitNode *node = &f->fit->node[curve->node[end]];
+            Rigid g = blend(pose, &node->binding, node->rest);
+            for (int k = 2 * end; k < 2 * end + 2; k++) f->curve[c][k] = rigid_apply(g, curve->rest[k]);
+        }
+    }
+}
+
+/* Derivatives across the rows at row r by the parabola through three rows (Bessel), at the first
+   and last row by the parabola's end. */
+static Vec3 row_slope(const Follower *f, const FitPanel *panel, int r, int k) {
+    int n = panel->nrows;
+    const double *h = panel->height;
+    Vec3 here = f->curve[panel->curve[r]][k];
+    if (n == 2) return vec_scale(vec_sub(f->curve[panel->curve[1]][k], f->curve[panel->curve[0]][k]), 1 / h[0]);
+    if (r > 0 && r < n - 1) {
+        Vec3 d0 = vec_scale(vec_sub(here, f->curve[panel->curve[r - 1]][k]), 1 / h[r - 1]);
+        Vec3 d1 = vec_scale(vec_sub(f->curve[panel->curve[r + 1]][k], here), 1 / h[r]);
+        return vec_scale(vec_add(vec_scale(d0, h[r]), vec_scale(d1, h[r - 1])), 1 / (h[r - 1] + h[r]));
+    }
+    int inner = r == 0 ? 1 : n - 2, span = r == 0 ? 0 : n - 2;
+    Vec3 chord = vec_scale(vec_sub(f->curve[panel->curve[span + 1]][k], f->curve[panel->curve[span]][k]), 1 / h[span]);
+    return vec_sub(vec_scale(chord, 2), row_slope(f, panel, inner, k));
+}
+
+/* Ends of rows are nodes, which other panels share: all take the mean, so the edge between two
+   nodes is one curve whoever draws it, also where four panels meet at a crotch. */
+static void share_slopes(Follower *f) {
+    const Fit *fit = f->fit;
+    memset(f->node_slope, 0, (size_t)fit->nnodes * sizeof *f->node_slope);
+    memset(f->node_uses, 0, (size_t)fit->nnodes * sizeof *f->node_uses);
+    for (int pass = 0; pass < 2; pass++)
+        for (int p = 0; p < fit->npanels; p++)
+            for (int r = 0; r < fit->panel[p].nrows; r++)
+                for (int end = 0; end < 2; end++) {
+                    int node = fit->curve[fit->panel[p].curve[r]].node[end];
+                    Vec3 *slope = &f->slope[p][r][3 * end];
+                    if (pass == 0) {
+                        f->node_slope[node] = vec_add(f->node_slope[node], *slope);
+                        f->node_uses[node]++;
+                    } else {
+                        *slope = vec_scale(f->node_slope[node], 1.0 / f->node_uses[node]);
+                    }
+                }
+}
+
+static void slopes_by_rows(Follower *f) {
+    for (int p = 0; p < f->fit->npanels; p++)
+        for (int r = 0; r < f->fit->panel[p].nrows; r++)
+            for (int k = 0; k < 4; k++) f->slope[p][r][k] = row_slope(f, &f->fit->panel[p], r, k);
+}
+
+/* Arcs of one ring that meet at a node from both sides get handles on one line. */
+static void straighten_handles(Follower *f) {
+    const Fit *fit = f->fit;
+    for (int a = 0; a < fit->ncurves; a++)
+        for (int b = a + 1; b < fit->ncurves; b++) {
+            if (fit->curve[a].ring != fit->curve[b].ring) continue;
+            for (int i = 0; i < 4; i++) {
+                int ea = i / 2, eb = i % 2;
+                if (fit->curve[a].node[ea] != fit->curve[b].node[eb]) continue;
+                Vec3 node = f->curve[a][3 * ea], *ha = &f->curve[a][1 + ea], *hb = &f->curve[b][1 + eb];
+                Vec3 va = vec_sub(*ha, node), vb = vec_sub(*hb, node);
+                double la = vec_len(va), lb = vec_len(vb);
+                if (vec_dot(va, vb) >= 0) continue; /* the same side: not neighbours */
+                Vec3 line = vec_unit_or(vec_sub(vec_scale(va, lb), vec_scale(vb, la)), va);
+                *ha = vec_mad(node, line, la);
+                *hb = vec_mad(node, line, -lb);
+            }
+        }
+}
+
+static void curves_by_envelope(Follower *f, const Pose *pose) {
+    const Fit *fit = f->fit;
+    Envelope env;
+    envelope_pose(&env, fit, f->figure, f->body, pose);
+    double step = env.cm;
+    for (int c = 0; c < fit->ncurves; c++) {
+        const FitCurve *curve = &fit->curve[c];
+        double s = envelope_place(&env, curve->ring);
+        for (int k = 0; k < 4; k++) f->curve[c][k] = envelope_point(&env, s, curve->unit[k][0], curve->unit[k][1]);
+    }
+    for (int p = 0; p < fit->npanels; p++)
+        for (int r = 0; r < fit->panel[p].nrows; r++) {
+            const FitCurve *curve = &fit->curve[fit->panel[p].curve[r]];
+            double s = envelope_place(&env, curve->ring);
+            for (int k = 0; k < 4; k++) {
+                Vec3 above = envelope_point(&env, s - step, curve->unit[k][0], curve->unit[k][1]);
+                Vec3 below = envelope_point(&env, s + step, curve->unit[k][0], curve->unit[k][1]);
+                f->slope[p][r][k] = vec_scale(vec_sub(below, above), 0.5 / step);
+            }
+        }
+    straighten_handles(f);
+}
+
+/* Parameter length of the row: arc length down the body for the envelope, whose slopes are
+   derivatives by it. */
+static double span(const Follower *f, const FitPanel *panel, int r) {
+    const Fit *fit = f->fit;
+    if (fit->garment->follow != FOLLOW_ENVELOPE) return panel->height[r];
+    return fit->ring[fit->curve[panel->curve[r]].ring].y - fit->ring[fit->curve[panel->curve[r + 1]].ring].y;
+}
+
+static void loft(const Follower *f, const FitPatch *patch, Patch *out) {
+    const FitPanel *panel = &f->fit->panel[patch->panel];
+    int r = patch->row;
+    const Vec3 *above = f->curve[panel->curve[r]], *below = f->curve[panel->curve[r + 1]];
+    double h = span(f, panel, r);
+    for (int k = 0; k < 4; k++)
+        bezier_from_hermite(above[k], f->slope[patch->panel][r][k], below[k], f->slope[patch->panel][r + 1][k], h, out->p[k]);
+}
+
+static void follow_raw(const Follower *f, const FitPatch *patch, const Pose *pose, Patch *out) {
+    const RawPatch *raw = &f->fit->garment->patch[patch->row];
+    const Vec3 *rest = f->fit->raw[patch->row];
+    for (int c = 0; c < 16; c++) {
+        Vec3 p = {0, 0, 0};
+        for (int b = 0; b < raw->binding[c].n; b++)
+            p = vec_mad(p, rigid_apply(pose->bone[raw->binding[c].bone[b]], rest[c]), raw->binding[c].weight[b]);
+        out->p[c / 4][c % 4] = p;
+    }
+}
+
+void follow_pose(Follower *f, const Pose *pose, Patch *out) {
+    const Fit *fit = f->fit;
+    if (fit->garment->follow == FOLLOW_ENVELOPE && fit->npanels > 0) {
+        curves_by_envelope(f, pose);
+    } else {
+        curves_by_bones(f, pose);
+        slopes_by_rows(f);
+    }
+    share_slopes(f);
+    for (int p = 0; p < fit->npatches; p++) {
+        if (fit->patch[p].panel < 0) follow_raw(f, &fit->patch[p], pose, &out[p]);
+        else loft(f, &fit->patch[p], &out[p]);
+    }
+}

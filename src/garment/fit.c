@@ -1,0 +1,423 @@
+/* From rings to root patches. The one idea: control points have names. A name is given once
+   for each thing that can be shared (a curve's points, the points of a column between two
+   nodes, the sewn side of a raw patch), so neighbouring patches share an edge because they use
+   the same names, never because two positions happen to agree. */
+#include "garment/fit.h"
+
+#include <string.h>
+
+/* Handles of arcs: a quarter of an ellipse, and half of one, as a single cubic. The half is the
+   one that reaches the full depth in its middle (METHOD section 6 of the design notes). */
+static const double QUARTER = 0.5522847498307936, HALF = 4.0 / 3.0;
+
+/* A ring in space: its centre and its half axes, front and back apart. */
+typedef struct { Vec3 centre, side, front, back; } Frame;
+
+typedef struct {
+    const Garment *g;
+    const Figure *figure;
+    const Body *body;
+    Fit *fit;
+    Arena *arena;
+    int node_of[GARMENT_RINGS_MAX][STATION_COUNT];
+    Frame ring[GARMENT_RINGS_MAX];
+    int private_names; /* given to points that nobody shares: -1, -2, ... */
+} Tailor;
+
+static bool is_leg(Role r) { return r >= ROLE_LEFT_THIGH; }
+
+static Role other_leg(Role r) {
+    int side = ROLE_RIGHT_THIGH - ROLE_LEFT_THIGH;
+    return (Role)(r < ROLE_RIGHT_THIGH ? (int)r + side : (int)r - side);
+}
+
+static const BodyPart *part_of(const Body *body, Role role) {
+    return body->of_role[role] < 0 ? NULL : &body->part[body->of_role[role]];
+}
+
+/* The envelope's rings on a leg go round both legs: the hull of the two sections. */
+static Section round_both_legs(const BodyPart *part, const BodyPart *twin, double at, Vec3 *centre) {
+    Section s = body_section(part, at), t = body_section(twin, at);
+    Vec3 a = rigid_apply(part->frame, vec(s.x, at * part->length, s.z));
+    Vec3 b = rigid_apply(twin->frame, vec(t.x, at * twin->length, t.z));
+    *centre = vec_mid(a, b);
+    s.side += 0.5 * fabs(a.x - b.x);
+    return s;
+}
+
+static bool place_ring(Tailor *t, int r, Error *e) {
+    const Ring *ring = &t->g->ring[r];
+    const BodyPart *part = part_of(t->body, ring->part);
+    if (!part)
+        return error_set(e, ERR_INPUT, "garment '%s': ring '%s' is on '%s', which the body does not have", t->g->name,
+                         ring->name, role_name(ring->part));
+    double scale = t->body->scale, ease = ring->ease * scale;
+    Section s = body_section(part, ring->at);
+    Vec3 centre = rigid_apply(part->frame, vec(s.x, ring->at * part->length, s.z));
+    Vec3 x = mat_column(part->frame.r, 0), z = mat_column(part->frame.r, 2);
+    if (x.x < 0) x = vec_scale(x, -1);
+    if (z.z < 0) z = vec_scale(z, -1);
+    double least = 0;
+    if (t->g->follow == FOLLOW_ENVELOPE && is_leg(ring->part)) {
+        s = round_both_legs(part, part_of(t->body, other_leg(ring->part)), ring->at, &centre);
+        least = s.side + 0.015 * scale; /* wide hips widen a skirt of fixed size */
+        x = vec(1, 0, 0);
+        z = vec(0, 0, 1);
+    }
+    if (ring->has_size) {
+        s.side = fmax(ring->side * scale, least);
+        s.front = ring->front * scale;
+        s.back = ring->back * scale;
+    }
+    Mat3 tilt = mat_axis_angle(vec(0, 0, 1), ring->tilt * PI / 180);
+    Frame *f = &t->ring[r];
+    f->centre = vec_mad(centre, ring->shift, scale);
+    f->side = vec_scale(mat_apply(tilt, x), s.side + ease);
+    f->front = vec_scale(mat_apply(tilt, z), s.front + ease);
+    f->back = vec_scale(mat_apply(tilt, z), s.back + ease);
+    t->fit->ring[r] = (FitRing){f->centre.y, s.side + ease, s.front + ease, s.back + ease, f->centre.x, f->centre.z};
+    return true;
+}
+
+static void station_unit(Station s, double out[2]) {
+    out[0] = s == STATION_LEFT ? 1 : s == STATION_RIGHT ? -1 : 0;
+    out[1] = s == STATION_FRONT ? 1 : s == STATION_BACK ? -1 : 0;
+}
+
+/* A point of the unit circle as a vector of the ring: front and back have their own depths. */
+static Vec3 ring_vector(const Frame *f, double x, double z) {
+    return vec_mad(vec_scale(f->side, x), z > 0 ? f->front : f->back, z);
+}
+
+static Vec3 station_rest(const Tailor *t, int r, Station s) {
+    double unit[2];
+    station_unit(s, unit);
+    Vec3 p = vec_add(t->ring[r].centre, ring_vector(&t->ring[r], unit[0], unit[1]));
+    return vec_mad(p, t->g->ring[r].move[s], t->body->scale);
+}
+
+static Binding binding_or_own(const Ring *ring, Station s) {
+    if (ring->binding[s].n > 0) return ring->binding[s];
+    return (Binding){.n = 1, .bone = {ring->part}, .weight = {1}};
+}
+
+/* Mean of two bindings; where that names more bones than fit, the heaviest stay. */
+static Binding mean_binding(Binding a, Binding b) {
+    double weight[ROLE_COUNT] = {0}, total = 0;
+    for (int i = 0; i < a.n; i++) weight[a.bone[i]] += 0.5 * a.weight[i];
+    for (int i = 0; i < b.n; i++) weight[b.bone[i]] += 0.5 * b.weight[i];
+    Binding out = {0};
+    while (out.n < BINDING_MAX) {
+        int best = 0;
+        for (int r = 1; r < ROLE_COUNT; r++)
+            if (weight[r] > weight[best]) best = r;
+        if (weight[best] <= 0) break;
+        out.bone[out.n] = (Role)best;
+        out.weight[out.n++] = weight[best];
+        total += weight[best];
+        weight[best] = 0;
+    }
+    for (int i = 0; i < out.n; i++) out.weight[i] /= total;
+    return out;
+}
+
+static void join_nodes(Tailor *t, int a, int b) {
+    FitNode *node = t->fit->node;
+    node[a] = (FitNode){vec_mid(node[a].rest, node[b].rest), mean_binding(node[a].binding, node[b].binding)};
+    for (int r = 0; r < t->g->nrings; r++)
+        for (int s = 0; s < STATION_COUNT; s++)
+            if (t->node_of[r][s] == b) t->node_of[r][s] = a;
+}
+
+static bool make_nodes(Tailor *t, Error *e) {
+    const Garment *g = t->g;
+    Fit *f = t->fit;
+    f->node = ARENA_NEW(t->arena, FitNode, g->nrings * STATION_COUNT, e);
+    if (!f->node) return false;
+    for (int r = 0; r < g->nrings; r++)
+        for (int s = 0; s < STATION_COUNT; s++) {
+            t->node_of[r][s] = f->nnodes;
+            f->node[f->nnodes++] = (FitNode){station_rest(t, r, (Station)s), binding_or_own(&g->ring[r], (Station)s)};
+        }
+    for (int k = 0; k < g->njoins; k++) {
+        const Join *j = &g->join[k];
+        int a = t->node_of[j->ring_a][j->station_a], b = t->node_of[j->ring_b][j->station_b];
+        if (a != b) join_nodes(t, a, b);
+    }
+    return true;
+}
+
+/* The arc leaves `from` towards its via (or, a quarter, towards `to`) and reaches `to` coming
+   from that via (or from where `from` lies). */
+static void make_curve(const Tailor *t, const Row *row, FitCurve *c) {
+    int r = row->ring;
+    double a[2], b[2], leave[2], arrive[2];
+    bool quarter = row->via == STATION_NONE;
+    station_unit(row->from, a);
+    station_unit(row->to, b);
+    station_unit(quarter ? row->to : row->via, leave);
+    station_unit(quarter ? row->from : row->via, arrive);
+    double k = quarter ? QUARTER : HALF;
+    *c = (FitCurve){.ring = r, .node = {t->node_of[r][row->from], t->node_of[r][row->to]}};
+    for (int i = 0; i < 2; i++) {
+        c->unit[0][i] = a[i];
+        c->unit[1][i] = a[i] + k * leave[i];
+        c->unit[2][i] = b[i] + k * arrive[i];
+        c->unit[3][i] = b[i];
+    }
+    c->rest[0] = t->fit->node[c->node[0]].rest;
+    c->rest[1] = vec_add(c->rest[0], ring_vector(&t->ring[r], k * leave[0], k * leave[1]));
+    c->rest[3] = t->fit->node[c->node[1]].rest;
+    c->rest[2] = vec_add(c->rest[3], ring_vector(&t->ring[r], k * arrive[0], k * arrive[1]));
+}
+
+/* The curve of a row, made when it is first used; rows through the same stations share it. */
+static int curve_of(Tailor *t, const Row *row) {
+    FitCurve made;
+    make_curve(t, row, &made);
+    Fit *f = t->fit;
+    for (int i = 0; i < f->ncurves; i++)
+        if (f->curve[i].ring == made.ring && memcmp(f->curve[i].unit, made.unit, sizeof made.unit) == 0) return i;
+    f->curve[f->ncurves] = made;
+    return f->ncurves++;
+}
+
+/* Parameter length between two rows: the mean distance of their control points, taken over all
+   panels that use this pair of rings, so that panels side by side agree. */
+static double row_height(const Fit *f, int ring_a, int ring_b) {
+    double sum = 0;
+    int n = 0;
+    for (int p = 0; p < f->npanels; p++)
+        for (int k = 0; k + 1 < f->panel[p].nrows; k++) {
+            const FitCurve *a = &f->curve[f->panel[p].curve[k]], *b = &f->curve[f->panel[p].curve[k + 1]];
+            if (a->ring != ring_a || b->ring != ring_b) continue;
+            for (int i = 0; i < 4; i++) sum += vec_dist(a->rest[i], b->rest[i]), n++;
+        }
+    return n && sum > 0 ? sum / n : 1;
+}
+
+static bool make_panels(Tailor *t, Error *e) {
+    const Garment *g = t->g;
+    Fit *f = t->fit;
+    f->curve = ARENA_NEW(t->arena, FitCurve, GARMENT_PANELS_MAX * GARMENT_ROWS_MAX, e);
+    f->panel = ARENA_NEW(t->arena, FitPanel, g->npanels, e);
+    if (!f->curve || !f->panel) return false;
+    f->npanels = g->npanels;
+    for (int p = 0; p < g->npanels; p++) {
+        f->panel[p].name = g->panel[p].name;
+        f->panel[p].nrows = g->panel[p].nrows;
+        for (int k = 0; k < g->panel[p].nrows; k++) f->panel[p].curve[k] = curve_of(t, &g->panel[p].row[k]);
+    }
+    for (int p = 0; p < f->npanels; p++)
+        for (int k = 0; k + 1 < f->panel[p].nrows; k++)
+            f->panel[p].height[k] = row_height(f, f->curve[f->panel[p].curve[k]].ring, f->curve[f->panel[p].curve[k + 1]].ring);
+    return true;
+}
+
+/* Names. Point k of curve c is 4 c + k, but its ends are nodes, which other curves share; the
+   inner points of a column are named by the two nodes that it joins. */
+static int node_name(const Fit *f, int node) { return 4 * f->ncurves + node; }
+
+static int curve_name(const Fit *f, int curve, int k) {
+    return k == 0 || k == 3 ? node_name(f, f->curve[curve].node[k == 3]) : 4 * curve + k;
+}
+
+static int column_name(const Fit *f, int above, int below, int k) {
+    return 4 * f->ncurves + f->nnodes + 2 * (above * f->nnodes + below) + (k == 2);
+}
+
+static unsigned panel_collide(const Garment *g, int panel, int row) {
+    unsigned parts = 0;
+    const Panel *p = &g->panel[panel];
+    for (int k = 0; k < g->ncollides; k++) {
+        const Collide *c = &g->collide[k];
+        if (c->from_ring < 0) {
+            if (c->piece == panel) parts |= c->parts;
+            continue;
+        }
+        int from = -1, to = -1;
+        for (int r = 0; r < p->nrows; r++) {
+            if (p->row[r].ring == c->from_ring) from = r;
+            if (p->row[r].ring == c->to_ring) to = r;
+        }
+        bool between = from < to ? row >= from && row < to : row >= to && row < from;
+        if (from >= 0 && to >= 0 && between) parts |= c->parts;
+    }
+    return parts;
+}
+
+static unsigned panel_pins(const Garment *g, int panel, int row) {
+    unsigned sides = 0;
+    const Panel *p = &g->panel[panel];
+    for (int k = 0; k < g->npins; k++) {
+        const Pin *pin = &g->pin[k];
+        if (pin->ring >= 0) {
+            if (p->row[row].ring == pin->ring) sides |= 1u << SIDE_TOP;
+            if (p->row[row + 1].ring == pin->ring) sides |= 1u << SIDE_BOTTOM;
+        } else if (pin->piece == panel) {
+            bool first = row == 0, last = row + 2 == p->nrows;
+            if ((pin->side != SIDE_TOP || first) && (pin->side != SIDE_BOTTOM || last)) sides |= 1u << pin->side;
+        }
+    }
+    return sides;
+}
+
+/* Does du x dw of the quad (u0 w0, u0 w1, u1 w0, u1 w1) point towards `centre`? */
+static bool points_inwards(const Vec3 q[4], Vec3 centre) {
+    Vec3 du = vec_sub(vec_add(q[2], q[3]), vec_add(q[0], q[1]));
+    Vec3 dw = vec_sub(vec_add(q[1], q[3]), vec_add(q[0], q[2]));
+    Vec3 middle = vec_mid(vec_mid(q[0], q[1]), vec_mid(q[2], q[3]));
+    return vec_dot(vec_cross(du, dw), vec_sub(middle, centre)) < 0;
+}
+
+static Vec3 arc_at(const FitCurve *c, double s) {
+    double b[4];
+    bezier_basis(s, b, NULL);
+    Vec3 p = vec_scale(c->rest[0], b[0]);
+    for (int i = 1; i < 4; i++) p = vec_mad(p, c->rest[i], b[i]);
+    return p;
+}
+
+static void make_panel_patch(Tailor *t, int p, int k) {
+    Fit *f = t->fit;
+    int above = f->panel[p].curve[k], below = f->panel[p].curve[k + 1];
+    const FitCurve *a = &f->curve[above], *b = &f->curve[below];
+    FitPatch *patch = &f->patch[f->npatches++];
+    *patch = (FitPatch){.panel = p, .row = k, .collide = panel_collide(t->g, p, k), .pinned = panel_pins(t->g, p, k)};
+    for (int i = 0; i < 4; i++) {
+        patch->point[4 * i] = curve_name(f, above, i);
+        patch->point[4 * i + 3] = curve_name(f, below, i);
+        for (int j = 1; j < 3; j++)
+            patch->point[4 * i + j] = i == 0 || i == 3 ? column_name(f, a->node[i == 3], b->node[i == 3], j) : --t->private_names;
+    }
+    Vec3 q[4] = {arc_at(a, 0.25), arc_at(b, 0.25), arc_at(a, 0.75), arc_at(b, 0.75)};
+    patch->flip = points_inwards(q, vec_mid(t->ring[a->ring].centre, t->ring[b->ring].centre));
+}
+
+/* Where a bone's point of the reference figure lies on this one: along the bone by its length,
+   across by the girth. */
+static Vec3 warp_by_bone(const Tailor *t, const Figure *reference, Role bone, Vec3 p) {
+    Vec3 axis = vec_sub(reference->end[bone], reference->start[bone]);
+    Vec3 mine = vec_sub(t->figure->end[bone], t->figure->start[bone]);
+    double length = vec_len(axis), ratio = length > 1e-9 ? vec_len(mine) / length : 1;
+    Vec3 unit = vec_unit_or(axis, vec(0, 1, 0)), off = vec_sub(p, reference->start[bone]);
+    double along = vec_dot(off, unit);
+    Vec3 across = vec_mad(off, unit, -along);
+    return vec_mad(vec_mad(t->figure->start[bone], vec_unit_or(mine, unit), along * ratio), across, t->body->scale);
+}
+
+/* Sizes a raw patch to the figure; returns a point inside the body behind it. */
+static Vec3 warp_raw(const Tailor *t, const Figure *reference, const RawPatch *raw, Vec3 out[16]) {
+    Vec3 inside = {0, 0, 0};
+    for (int c = 0; c < 16; c++) {
+        out[c] = vec(0, 0, 0);
+        for (int b = 0; b < raw->binding[c].n; b++) {
+            Role bone = raw->binding[c].bone[b];
+            double weight = raw->binding[c].weight[b];
+            out[c] = vec_mad(out[c], warp_by_bone(t, reference, bone, raw->point[c]), weight);
+            Vec3 middle = vec_mid(t->figure->start[bone], t->figure->end[bone]);
+            if (is_leg(bone) && t->g->loose) middle.x = 0; /* a skirt goes round both legs */
+            inside = vec_mad(inside, middle, weight / 16);
+        }
+    }
+    return inside;
+}
+
+static bool make_raw_patches(Tailor *t, Error *e) {
+    const Garment *g = t->g;
+    Fit *f = t->fit;
+    f->raw = arena_array(t->arena, (size_t)g->npatches, sizeof *f->raw, e);
+    if (!f->raw) return false;
+    Figure reference = figure_reference();
+    for (int k = 0; k < g->npatches; k++) {
+        FitPatch *patch = &f->patch[f->npatches++];
+        *patch = (FitPatch){.panel = -1, .row = k};
+        Vec3 inside = warp_raw(t, &reference, &g->patch[k], f->raw[k]);
+        for (int c = 0; c < 16; c++) patch->point[c] = --t->private_names;
+        Patch shape;
+        memcpy(shape.p, f->raw[k], sizeof shape.p);
+        Vec3 q[4];
+        for (int c = 0; c < 4; c++) q[c] = bezier_point(&shape, c < 2 ? 0.25 : 0.75, c % 2 ? 0.75 : 0.25, NULL, NULL);
+        inside.y = vec_mid(q[0], q[3]).y;
+        patch->flip = points_inwards(q, inside);
+        for (int i = 0; i < g->ncollides; i++)
+            if (g->collide[i].from_ring < 0 && g->collide[i].piece == g->npanels + k) patch->collide |= g->collide[i].parts;
+        for (int i = 0; i < g->npins; i++)
+            if (g->pin[i].ring < 0 && g->pin[i].piece == g->npanels + k) patch->pinned |= 1u << g->pin[i].side;
+    }
+    return true;
+}
+
+/* Indices of the four control points along a side, from its first to its last. */
+static void side_points(Side side, int out[4]) {
+    for (int k = 0; k < 4; k++)
+        out[k] = side == SIDE_START ? k : side == SIDE_END ? 12 + k : side == SIDE_TOP ? 4 * k : 4 * k + 3;
+}
+
+static void rename_point(Fit *f, int from, int to) {
+    for (int p = 0; p < f->npatches; p++)
+        for (int c = 0; c < 16; c++)
+            if (f->patch[p].point[c] == from) f->patch[p].point[c] = to;
+}
+
+/* Seams between raw patches give both sides the same names. The sides may run either way. */
+static bool sew(Tailor *t, Error *e) {
+    Fit *f = t->fit;
+    int first_raw = f->npatches - t->g->npatches;
+    for (int k = 0; k < t->g->nseams; k++) {
+        const Seam *s = &t->g->seam[k];
+        int a = s->piece_a - t->g->npanels, b = s->piece_b - t->g->npanels;
+        if (a < 0 || b < 0) continue; /* panels share by their stations */
+        int ia[4], ib[4];
+        side_points(s->side_a, ia);
+        side_points(s->side_b, ib);
+        const Vec3 *pa = f->raw[a], *pb = f->raw[b];
+        bool reversed = vec_dist(pa[ia[0]], pb[ib[3]]) < vec_dist(pa[ia[0]], pb[ib[0]]);
+        for (int i = 0; i < 4; i++) {
+            int x = ia[i], y = ib[reversed ? 3 - i : i];
+            if (vec_dist(pa[x], pb[y]) > 1e-5)
+                return error_set(e, ERR_INPUT, "garment '%s': the sides of seam %d do not meet", t->g->name, k + 1);
+            rename_point(f, f->patch[first_raw + b].point[y], f->patch[first_raw + a].point[x]);
+        }
+    }
+    return true;
+}
+
+/* Numbers the names 0..npoints-1 in order of first use. */
+static bool number_points(Tailor *t, Error *e) {
+    Fit *f = t->fit;
+    int *seen = ARENA_NEW(t->arena, int, 16 * f->npatches, e);
+    if (!seen) return false;
+    for (int p = 0; p < f->npatches; p++)
+        for (int c = 0; c < 16; c++) {
+            int id = 0;
+            while (id < f->npoints && seen[id] != f->patch[p].point[c]) id++;
+            if (id == f->npoints) seen[f->npoints++] = f->patch[p].point[c];
+            f->patch[p].point[c] = id;
+        }
+    return true;
+}
+
+/* A patch for which nothing is said meets every part that the garment names at all. */
+static void complete_colliders(Fit *f) {
+    for (int p = 0; p < f->npatches; p++) f->own |= f->patch[p].collide;
+    for (int p = 0; p < f->npatches; p++)
+        if (!f->patch[p].collide) f->patch[p].collide = f->own;
+}
+
+bool fit_garment(const Garment *garment, const Figure *figure, const Body *body, Arena *arena, Fit *out, Error *e) {
+    *out = (Fit){.garment = garment, .scale = body->scale, .height = figure->height};
+    Tailor t = {.g = garment, .figure = figure, .body = body, .fit = out, .arena = arena};
+    int npatches = garment->npatches;
+    for (int p = 0; p < garment->npanels; p++) npatches += garment->panel[p].nrows - 1;
+    out->patch = ARENA_NEW(arena, FitPatch, npatches, e);
+    if (!out->patch) return false;
+    for (int r = 0; r < garment->nrings; r++)
+        if (!place_ring(&t, r, e)) return false;
+    if (!make_nodes(&t, e) || !make_panels(&t, e)) return false;
+    for (int p = 0; p < out->npanels; p++)
+        for (int k = 0; k + 1 < out->panel[p].nrows; k++) make_panel_patch(&t, p, k);
+    if (!make_raw_patches(&t, e) || !sew(&t, e) || !number_points(&t, e)) return false;
+    complete_colliders(out);
+    return true;
+}
