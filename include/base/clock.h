@@ -1,0 +1,8 @@
+/* The monotonic clock, for the columns that end in _s. */
+#ifndef BASE_CLOCK_H
+#define BASE_CLOCK_H
+
+/* Seconds since some fixed moment. */
+double clock_seconds(void);
+
+#endif

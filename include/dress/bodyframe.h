@@ -1,0 +1,33 @@
+/* The body of one frame, posed once and shared by all garments. */
+#ifndef DRESS_BODYFRAME_H
+#define DRESS_BODYFRAME_H
+
+#include "figure/body.h"
+#include "geometry/crossing.h"
+
+typedef struct {
+    const Body *body;
+    double unit;                   /* output units per metre */
+    Pose pose;
+    Vec3 *position, *normal;       /* skin.nvertices; positions in output units, snapped to the
+                                      precision of the text, so that what a reader of the file
+                                      sees is what was tested */
+    Rigid to_part[BODY_PARTS_MAX]; /* world (metres) -> part frame */
+    Mat3 to_world[BODY_PARTS_MAX]; /* part frame -> world, directions */
+    CrossingSet edges[BODY_PARTS_MAX], triangles[BODY_PARTS_MAX];
+    double seconds;                /* that posing took */
+} BodyFrame;
+
+MUST_CHECK bool body_frame_init(BodyFrame *f, const Body *body, double unit, Arena *arena, Error *e);
+
+/* Poses the body and boxes its edges and triangles. Allocates nothing. */
+void body_frame_pose(BodyFrame *f, const Pose *pose);
+
+/* Signed distance (metres) of a world point from a part; *normal, if not NULL, in the world.
+   See body_distance for `far`. */
+double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal);
+
+/* Bit 1 << role of a part. */
+static inline unsigned part_bit(const BodyFrame *f, int part) { return 1u << f->body->part[part].role; }
+
+#endif

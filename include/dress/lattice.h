@@ -1,0 +1,56 @@
+/* The vertices of a garment's surface, named once. Every root patch carries a square lattice of
+   (side + 1)^2 places, fine enough for the deepest leaf; places that patches share along an edge
+   or at a corner have the same number. A mesh of any refinement uses a subset of them.
+
+   The local deformation is a field on the same lattice: a level-l vertex is a corner of the
+   2^l x 2^l cells of a root patch, and carries one displacement vector. Inside a cell the four
+   control points nearest to a corner (2 x 2 of 4 x 4) take that corner's vector, which is the
+   weight h(u) h(w), h(t) = 1 - 3t^2 + 2t^3: its slope across every cell edge is zero, so patches
+   keep meeting, with their tangent planes, at any seam and between any two levels. */
+#ifndef DRESS_LATTICE_H
+#define DRESS_LATTICE_H
+
+#include "garment/fit.h"
+
+enum { LATTICE_DEPTH_MAX = 3, LATTICE_LEVELS = LATTICE_DEPTH_MAX + 1 };
+
+typedef struct { int patch, a, b; } LatticeCell; /* cell (a, b) of a level: a along u, b along w */
+
+typedef struct {
+    int count;
+    int *vertex;        /* [patch][a * (2^l + 1) + b]: number of the level vertex */
+    int *place;         /* level vertex -> lattice place */
+    int *first_cell;    /* count + 1: cells round vertex v are cell[first_cell[v]..first_cell[v+1]) */
+    LatticeCell *cell;
+    bool *pinned;
+    double *weight;     /* [k], k = 0..stride: h(k / stride), stride = side / 2^l */
+    double *slope;      /* dh/dt per cell, times 2^l: derivative by the patch parameter */
+} LatticeLevel;
+
+typedef struct {
+    const Fit *fit;
+    int detail, depth;  /* facets per side of a leaf; levels of splitting */
+    int side;           /* detail << depth: facets per side of a root patch at the deepest level */
+    int nplaces;
+    int *place;         /* [patch][i * (side + 1) + j]: number of the place */
+    int *owner;         /* place -> patch * (side + 1)^2 + i * (side + 1) + j of the patch that evaluates it */
+    unsigned *collide;  /* place -> parts that it must stay out of (union over its patches) */
+    bool *pinned;       /* place */
+    LatticeLevel level[LATTICE_LEVELS];
+    double (*basis)[4], (*basis_slope)[4]; /* Bernstein values at i / side */
+} Lattice;
+
+MUST_CHECK bool lattice_build(const Fit *fit, int detail, int depth, Arena *arena, Lattice *out, Error *e);
+
+/* Number of the place (i, j) of a patch. */
+static inline int lattice_place(const Lattice *l, int patch, int i, int j) {
+    int n = l->side + 1;
+    return l->place[(patch * n + i) * n + j];
+}
+
+/* The up to four level-l vertices that move a place and their weights; du, dw (may be NULL): the
+   weights' derivatives by the patch parameters. patch, i, j as in `owner`. */
+void lattice_weights(const Lattice *l, int level, int patch, int i, int j, int vertex[4], double weight[4],
+                     double du[4], double dw[4]);
+
+#endif

@@ -1,0 +1,53 @@
+/* Local deformation: the body pushes the cloth out. */
+#ifndef DRESS_PUSH_H
+#define DRESS_PUSH_H
+
+#include "dress/tessellate.h"
+
+/* The garment's displacement, carried from frame to frame, and the solver's memory. */
+typedef struct {
+    const Lattice *lattice;
+    double scale;                     /* lengths inside the method, relative to 1.70 m */
+    Vec3 *displacement[LATTICE_LEVELS]; /* per level vertex; world frame, metres */
+    bool *active[LATTICE_LEVELS];
+    Vec3 *offset;                     /* per lattice place: the last millimetres */
+    Mat3 pelvis;                      /* of the frame that the displacement belongs to */
+    Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
+    double *clearance;                /* per mesh vertex: distance asked for */
+    double *spent;                    /* per mesh vertex: push it has issued in this frame */
+    double *budget;
+    unsigned *near;                   /* per mesh vertex: parts (bit 1 << part) worth asking */
+    int *queue;                       /* mesh vertices near the body */
+    int nqueue;
+} Push;
+
+typedef struct {
+    int sweeps, active, pinched;
+    double displacement;  /* largest move from the global shape */
+    bool capped;
+} PushResult;
+
+MUST_CHECK bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e);
+
+/* Takes the displacement of the last frame along: turned with the pelvis, faded with time. What
+   is still felt keeps its cells split. restart: forget it. */
+void push_carry(Push *p, const BodyFrame *body, double dt, bool restart, Leaves *leaves);
+
+/* Displaces the vertices of the sheet until they keep their clearance (projection onto half
+   spaces, METHOD 4.3): the global shape from the root patches, then sweeps. */
+void push_solve(Push *p, const Patch *root, const BodyFrame *body, const Leaves *leaves, const Sheet *sheet,
+                PushResult *result);
+
+/* Asks for more clearance at a vertex (chords of a facet can cut the body although its corners
+   are outside), then push_settle moves those vertices alone. Returns false where the most is
+   reached. */
+bool push_raise(Push *p, int vertex, double by);
+void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
+
+/* Unit normal of the displaced patches at a mesh vertex (analytic; offsets left out). */
+Vec3 push_normal(const Push *p, const Patch *root, const Sheet *sheet, int vertex);
+
+/* The distance that cloth keeps from the body, metres on a figure of 1.70 m. */
+#define PUSH_MARGIN 0.003
+
+#endif

@@ -1,0 +1,62 @@
+/* Which patches are split: a quadtree over every root patch, and the paper's rule. */
+#ifndef DRESS_REFINE_H
+#define DRESS_REFINE_H
+
+#include "dress/bodyframe.h"
+#include "dress/lattice.h"
+
+typedef enum { SPLIT_ADAPTIVE, SPLIT_UNIFORM, SPLIT_NONE } SplitRule;
+
+/* The leaves of the quadtrees: the level of the leaf over every deepest cell. */
+typedef struct {
+    const Lattice *lattice;
+    unsigned char *level; /* [patch][x * cells + y], cells = 1 << depth */
+} Leaves;
+
+MUST_CHECK bool leaves_reserve(Leaves *leaves, const Lattice *lattice, Arena *arena, Error *e);
+
+/* All leaves at one level. */
+void leaves_fill(Leaves *leaves, int level);
+
+/* Splits until the leaves over cell (a, b) of `level` are at that level or deeper. */
+void leaves_split(Leaves *leaves, int patch, int level, int a, int b);
+
+int leaves_count(const Leaves *leaves);
+
+/* The leaf whose first deepest cell is (x, y), if one starts there: returns its level or -1. */
+static inline int leaf_at(const Leaves *leaves, int patch, int x, int y) {
+    int depth = leaves->lattice->depth, cells = 1 << depth;
+    int level = leaves->level[(patch * cells + x) * cells + y], size = 1 << (depth - level);
+    return x % size == 0 && y % size == 0 ? level : -1;
+}
+
+typedef struct {
+    int nodes, leaves, depth; /* patches ever made, leaves, deepest level */
+    int hits;                 /* (body edge, triangle) pairs on the root patches, or on all leaves
+                                 where these are split from the start */
+    CrossingCount count;
+    bool capped;              /* more hits than the list holds: some patches may be left unsplit */
+} Classification;
+
+/* Memory of the classification; private inside. */
+typedef struct {
+    const Lattice *lattice;
+    int capacity;             /* cells tested in one go */
+    Vec3 *position;
+    Triangle *triangle;
+    LatticeCell *cell, *next;
+    bool *hit;
+    Crossing *found;
+    int found_capacity;
+    CrossingSet set;
+} Classifier;
+
+MUST_CHECK bool classifier_reserve(Classifier *c, const Lattice *lattice, Arena *arena, Error *e);
+
+/* The paper's rule on the global shape. A patch is hit if an edge of one of its colliders
+   crosses its triangles (detail x detail x 2) or a corner of them lies inside. A patch that is
+   hit is split in four, and all four are tested; where two that share a side are hit, splitting
+   ends there; else those that are hit are split again, down to the lattice's depth. */
+void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule rule, Leaves *leaves, Classification *out);
+
+#endif

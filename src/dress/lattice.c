@@ -1,0 +1,193 @@
+/* Numbering what patches share. Corners are shared by name, edges by the names of their four
+   control points, in either direction; everything else belongs to one patch. */
+#include "dress/lattice.h"
+
+#include <string.h>
+
+/* Control points along a side, in the direction of growing u or w. */
+static void side_names(const FitPatch *p, Side side, int out[4]) {
+    for (int k = 0; k < 4; k++)
+        out[k] = p->point[side == SIDE_START ? k : side == SIDE_END ? 12 + k : side == SIDE_TOP ? 4 * k : 4 * k + 3];
+}
+
+/* Lattice coordinates of step k along a side. */
+static void side_place(const Lattice *l, Side side, int k, int *i, int *j) {
+    *i = side == SIDE_START ? 0 : side == SIDE_END ? l->side : k;
+    *j = side == SIDE_TOP ? 0 : side == SIDE_BOTTOM ? l->side : k;
+}
+
+static int *slot(const Lattice *l, int patch, int i, int j) { return &l->place[(patch * (l->side + 1) + i) * (l->side + 1) + j]; }
+
+/* The place of a side's step that an earlier side with the same names has numbered, or -1. */
+static bool find_twin(const Lattice *l, int patch, Side side, int *twin_patch, Side *twin, bool *reversed) {
+    int mine[4], other[4];
+    side_names(&l->fit->patch[patch], side, mine);
+    for (int p = 0; p <= patch; p++)
+        for (int s = 0; s < (p < patch ? 4 : (int)side); s++) {
+            side_names(&l->fit->patch[p], (Side)s, other);
+            bool same = true, back = true;
+            for (int k = 0; k < 4; k++) {
+                same = same && mine[k] == other[k];
+                back = back && mine[k] == other[3 - k];
+            }
+            if (!same && !back) continue;
+            *twin_patch = p;
+            *twin = (Side)s;
+            *reversed = !same;
+            return true;
+        }
+    return false;
+}
+
+static int new_place(Lattice *l, int patch, int i, int j) {
+    int n = l->side + 1;
+    l->owner[l->nplaces] = (patch * n + i) * n + j;
+    return l->nplaces++;
+}
+
+static void number_side(Lattice *l, int patch, Side side) {
+    int twin_patch = 0, i, j, ti, tj;
+    Side twin = SIDE_START;
+    bool reversed = false, shared = find_twin(l, patch, side, &twin_patch, &twin, &reversed);
+    for (int k = 1; k < l->side; k++) {
+        side_place(l, side, k, &i, &j);
+        if (shared) side_place(l, twin, reversed ? l->side - k : k, &ti, &tj);
+        *slot(l, patch, i, j) = shared ? *slot(l, twin_patch, ti, tj) : new_place(l, patch, i, j);
+    }
+}
+
+static void number_places(Lattice *l, int *corner) {
+    int end = l->side;
+    for (int k = 0; k < l->fit->npoints; k++) corner[k] = -1;
+    for (int p = 0; p < l->fit->npatches; p++) {
+        const FitPatch *patch = &l->fit->patch[p];
+        for (int c = 0; c < 4; c++) {
+            int name = patch->point[(c / 2) * 12 + (c % 2) * 3], i = c / 2 * end, j = c % 2 * end;
+            if (corner[name] < 0) corner[name] = new_place(l, p, i, j);
+            *slot(l, p, i, j) = corner[name];
+        }
+        for (int s = 0; s < 4; s++) number_side(l, p, (Side)s);
+        for (int i = 1; i < end; i++)
+            for (int j = 1; j < end; j++) *slot(l, p, i, j) = new_place(l, p, i, j);
+    }
+}
+
+/* Colliders and pins of the places: a place on a shared edge obeys both patches. */
+static void mark_places(Lattice *l) {
+    for (int p = 0; p < l->fit->npatches; p++) {
+        const FitPatch *patch = &l->fit->patch[p];
+        for (int i = 0; i <= l->side; i++)
+            for (int j = 0; j <= l->side; j++) l->collide[*slot(l, p, i, j)] |= patch->collide;
+        for (int s = 0; s < 4; s++)
+            for (int k = 0, i, j; patch->pinned >> s & 1 && k <= l->side; k++) {
+                side_place(l, (Side)s, k, &i, &j);
+                l->pinned[*slot(l, p, i, j)] = true;
+            }
+    }
+}
+
+/* Cells of a level that touch vertex (a, b) of a patch: up to four. */
+static int cells_round(int cells, int patch, int a, int b, LatticeCell out[4]) {
+    int n = 0;
+    for (int x = a - 1; x <= a; x++)
+        for (int y = b - 1; y <= b; y++)
+            if (x >= 0 && x < cells && y >= 0 && y < cells) out[n++] = (LatticeCell){patch, x, y};
+    return n;
+}
+
+/* Lists the cells round every vertex of a level: first their number, then they themselves. */
+static void list_cells(const Lattice *l, LatticeLevel *level, int cells) {
+    LatticeCell round[4];
+    for (int pass = 0; pass < 2; pass++) {
+        for (int p = 0; p < l->fit->npatches; p++)
+            for (int a = 0; a <= cells; a++)
+                for (int b = 0; b <= cells; b++) {
+                    int v = level->vertex[(p * (cells + 1) + a) * (cells + 1) + b], n = cells_round(cells, p, a, b, round);
+                    if (pass == 1) memcpy(&level->cell[level->first_cell[v]], round, (size_t)n * sizeof *round);
+                    level->first_cell[v] += n;
+                }
+        if (pass == 0) { /* numbers become starts */
+            int sum = 0;
+            for (int v = 0; v <= level->count; v++) {
+                int n = level->first_cell[v];
+                level->first_cell[v] = sum;
+                sum += n;
+            }
+        } else { /* filling has moved each start to the next one's */
+            for (int v = level->count; v > 0; v--) level->first_cell[v] = level->first_cell[v - 1];
+            level->first_cell[0] = 0;
+        }
+    }
+}
+
+static bool build_level(Lattice *l, int number, int *of_place, Arena *arena, Error *e) {
+    LatticeLevel *level = &l->level[number];
+    int cells = 1 << number, n = cells + 1, stride = l->side / cells, most = l->fit->npatches * n * n;
+    level->vertex = ARENA_NEW(arena, int, most, e);
+    level->place = ARENA_NEW(arena, int, most, e);
+    level->first_cell = ARENA_NEW(arena, int, most + 1, e);
+    level->cell = ARENA_NEW(arena, LatticeCell, 4 * most, e);
+    level->pinned = ARENA_NEW(arena, bool, most, e);
+    level->weight = ARENA_NEW(arena, double, stride + 1, e);
+    level->slope = ARENA_NEW(arena, double, stride + 1, e);
+    if (!level->vertex || !level->place || !level->first_cell || !level->cell || !level->pinned || !level->weight || !level->slope)
+        return false;
+    for (int k = 0; k <= stride; k++) {
+        double t = (double)k / stride;
+        level->weight[k] = 1 - t * t * (3 - 2 * t);
+        level->slope[k] = -6 * t * (1 - t) * cells;
+    }
+    for (int k = 0; k < l->nplaces; k++) of_place[k] = -1;
+    for (int p = 0; p < l->fit->npatches; p++)
+        for (int a = 0; a < n; a++)
+            for (int b = 0; b < n; b++) {
+                int place = lattice_place(l, p, a * stride, b * stride);
+                if (of_place[place] < 0) {
+                    of_place[place] = level->count;
+                    level->pinned[level->count] = l->pinned[place];
+                    level->place[level->count++] = place;
+                }
+                level->vertex[(p * n + a) * n + b] = of_place[place];
+            }
+    list_cells(l, level, cells);
+    return true;
+}
+
+bool lattice_build(const Fit *fit, int detail, int depth, Arena *arena, Lattice *out, Error *e) {
+    int side = detail << depth, n = side + 1, most = fit->npatches * n * n;
+    *out = (Lattice){.fit = fit, .detail = detail, .depth = depth, .side = side};
+    out->place = ARENA_NEW(arena, int, most, e);
+    out->owner = ARENA_NEW(arena, int, most, e);
+    out->collide = ARENA_NEW(arena, unsigned, most, e);
+    out->pinned = ARENA_NEW(arena, bool, most, e);
+    out->basis = arena_array(arena, (size_t)n, sizeof *out->basis, e);
+    out->basis_slope = arena_array(arena, (size_t)n, sizeof *out->basis_slope, e);
+    int *scratch = ARENA_NEW(arena, int, most > fit->npoints ? most : fit->npoints, e);
+    if (!out->place || !out->owner || !out->collide || !out->pinned || !out->basis || !out->basis_slope || !scratch) return false;
+    number_places(out, scratch);
+    mark_places(out);
+    for (int level = 0; level <= depth; level++)
+        if (!build_level(out, level, scratch, arena, e)) return false;
+    for (int i = 0; i < n; i++) bezier_basis((double)i / side, out->basis[i], out->basis_slope[i]);
+    return true;
+}
+
+void lattice_weights(const Lattice *l, int number, int patch, int i, int j, int vertex[4], double weight[4], double du[4],
+                     double dw[4]) {
+    const LatticeLevel *level = &l->level[number];
+    int cells = 1 << number, n = cells + 1, stride = l->side >> number;
+    int a = i / stride, b = j / stride;
+    if (a == cells) a--;
+    if (b == cells) b--;
+    int u = i - a * stride, w = j - b * stride;
+    const double *h = level->weight, *s = level->slope;
+    double hu[2] = {h[u], h[stride - u]}, hw[2] = {h[w], h[stride - w]};
+    double su[2] = {s[u], -s[stride - u]}, sw[2] = {s[w], -s[stride - w]};
+    for (int k = 0; k < 4; k++) {
+        int x = k / 2, y = k % 2;
+        vertex[k] = level->vertex[(patch * n + a + x) * n + b + y];
+        weight[k] = hu[x] * hw[y];
+        if (du) du[k] = su[x] * hw[y];
+        if (dw) dw[k] = hu[x] * sw[y];
+    }
+}

@@ -1,0 +1,163 @@
+/* The quadtrees. All cells of one level are tested together: one box tree over their triangles is
+   cheaper than many small ones, and the counts are the same. */
+#include "dress/refine.h"
+
+#include <string.h>
+
+bool leaves_reserve(Leaves *leaves, const Lattice *lattice, Arena *arena, Error *e) {
+    leaves->lattice = lattice;
+    leaves->level = ARENA_NEW(arena, unsigned char, lattice->fit->npatches << (2 * lattice->depth), e);
+    return leaves->level != NULL;
+}
+
+void leaves_fill(Leaves *leaves, int level) {
+    memset(leaves->level, level, (size_t)leaves->lattice->fit->npatches << (2 * leaves->lattice->depth));
+}
+
+/* Raises a whole cell of `level` to at least that level. */
+static void raise_cell(Leaves *leaves, int patch, int level, int a, int b) {
+    int depth = leaves->lattice->depth, cells = 1 << depth, size = 1 << (depth - level);
+    for (int x = a * size; x < (a + 1) * size; x++)
+        for (int y = b * size; y < (b + 1) * size; y++) {
+            unsigned char *l = &leaves->level[(patch * cells + x) * cells + y];
+            if (*l < level) *l = (unsigned char)level;
+        }
+}
+
+void leaves_split(Leaves *leaves, int patch, int level, int a, int b) {
+    for (int l = 1; l <= level; l++) {
+        int shift = level - l + 1; /* the parent, whose four children become leaves */
+        int pa = a >> shift, pb = b >> shift;
+        for (int k = 0; k < 4; k++) raise_cell(leaves, patch, l, 2 * pa + k / 2, 2 * pb + k % 2);
+    }
+}
+
+int leaves_count(const Leaves *leaves) {
+    int cells = 1 << leaves->lattice->depth, n = 0;
+    for (int p = 0; p < leaves->lattice->fit->npatches; p++)
+        for (int x = 0; x < cells; x++)
+            for (int y = 0; y < cells; y++) n += leaf_at(leaves, p, x, y) >= 0;
+    return n;
+}
+
+bool classifier_reserve(Classifier *c, const Lattice *lattice, Arena *arena, Error *e) {
+    int n = lattice->detail, most = lattice->fit->npatches << (2 * lattice->depth);
+    *c = (Classifier){.lattice = lattice, .capacity = most, .found_capacity = 16 * most * n + 4096};
+    c->position = ARENA_NEW(arena, Vec3, most * (n + 1) * (n + 1), e);
+    c->triangle = ARENA_NEW(arena, Triangle, most * n * n * 2, e);
+    c->cell = ARENA_NEW(arena, LatticeCell, most, e);
+    c->next = ARENA_NEW(arena, LatticeCell, most, e);
+    c->hit = ARENA_NEW(arena, bool, most, e);
+    c->found = ARENA_NEW(arena, Crossing, c->found_capacity, e);
+    return c->position && c->triangle && c->cell && c->next && c->hit && c->found &&
+           crossing_reserve(&c->set, most * n * n * 2, arena, e);
+}
+
+/* The points of a cell on the global shape: its (detail + 1)^2 corners of facets. */
+static void cell_points(const Lattice *l, const Patch *root, LatticeCell cell, int level, Vec3 *out) {
+    int n = l->detail, stride = 1 << (l->depth - level);
+    for (int j = 0; j <= n; j++) {
+        const double *bw = l->basis[cell.b * n * stride + j * stride];
+        Vec3 row[4];
+        for (int i = 0; i < 4; i++) {
+            const Vec3 *p = root->p[i];
+            row[i] = vec_mad(vec_mad(vec_mad(vec_scale(p[0], bw[0]), p[1], bw[1]), p[2], bw[2]), p[3], bw[3]);
+        }
+        for (int i = 0; i <= n; i++) {
+            const double *bu = l->basis[cell.a * n * stride + i * stride];
+            out[i * (n + 1) + j] = vec_mad(vec_mad(vec_mad(vec_scale(row[0], bu[0]), row[1], bu[1]), row[2], bu[2]), row[3], bu[3]);
+        }
+    }
+}
+
+static void cell_triangles(int n, int first, Triangle *out) {
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            int a = first + i * (n + 1) + j, b = a + n + 1;
+            *out++ = (Triangle){{a, b, b + 1}};
+            *out++ = (Triangle){{a, b + 1, a + 1}};
+        }
+}
+
+static bool any_inside(const BodyFrame *body, unsigned parts, const Vec3 *points, int n) {
+    for (int p = 0; p < body->body->nparts; p++)
+        if (parts & part_bit(body, p))
+            for (int v = 0; v < n; v++)
+                if (body_frame_distance(body, p, points[v], 0, NULL) < 0) return true;
+    return false;
+}
+
+/* Tests `ncells` cells of one level: fills c->hit. */
+static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, int level, int ncells, Classification *out) {
+    const Lattice *l = c->lattice;
+    int n = l->detail, npoints = (n + 1) * (n + 1), ntriangles = 2 * n * n;
+    for (int k = 0; k < ncells; k++) {
+        unsigned parts = l->fit->patch[c->cell[k].patch].collide;
+        cell_points(l, &root[c->cell[k].patch], c->cell[k], level, c->position + k * npoints);
+        cell_triangles(n, k * npoints, c->triangle + k * ntriangles);
+        c->hit[k] = any_inside(body, parts, c->position + k * npoints, npoints);
+    }
+    if (body->unit != 1)
+        for (int v = 0; v < ncells * npoints; v++) c->position[v] = vec_scale(c->position[v], body->unit);
+    crossing_build_triangles(&c->set, c->position, c->triangle, ncells * ntriangles);
+    for (int p = 0; p < body->body->nparts; p++) {
+        if (!(l->fit->own & part_bit(body, p))) continue;
+        int before = out->count.hits, found = crossing_find(&body->edges[p], &c->set, c->found, c->found_capacity, &out->count);
+        if (found < out->count.hits - before) out->capped = true;
+        for (int k = 0; k < found; k++) {
+            int cell = c->found[k].triangle / ntriangles;
+            if (l->fit->patch[c->cell[cell].patch].collide & part_bit(body, p)) c->hit[cell] = true;
+        }
+    }
+    if (level == 0 || out->nodes == 0) out->hits += out->count.hits;
+    out->nodes += ncells;
+}
+
+/* Do two of four children that share a side both intersect? (The paper's stop rule.) */
+static bool neighbours_hit(const bool hit[4]) {
+    return (hit[0] && hit[1]) || (hit[0] && hit[2]) || (hit[1] && hit[3]) || (hit[2] && hit[3]);
+}
+
+/* Cells to split next, as the list of their children's parents: those hit at the top level, and
+   below it those hit in families where no two neighbours are. */
+static int choose(const Classifier *c, int level, int ncells, LatticeCell *out) {
+    int n = 0;
+    for (int k = 0; k < ncells; k++) {
+        const bool *family = &c->hit[k / 4 * 4];
+        if (c->hit[k] && (level == 0 || !neighbours_hit(family))) out[n++] = c->cell[k];
+    }
+    return n;
+}
+
+static int all_cells(const Lattice *l, int level, LatticeCell *out) {
+    int n = 0, cells = 1 << level;
+    for (int p = 0; p < l->fit->npatches; p++)
+        for (int a = 0; a < cells; a++)
+            for (int b = 0; b < cells; b++) out[n++] = (LatticeCell){p, a, b};
+    return n;
+}
+
+void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule rule, Leaves *leaves, Classification *out) {
+    const Lattice *l = c->lattice;
+    *out = (Classification){0};
+    int level = rule == SPLIT_UNIFORM ? l->depth : 0, ncells = all_cells(l, level, c->cell);
+    leaves_fill(leaves, level);
+    test_cells(c, root, body, level, ncells, out);
+    out->leaves = ncells;
+    out->depth = level;
+    while (rule == SPLIT_ADAPTIVE && level < l->depth) {
+        int nsplit = choose(c, level, ncells, c->next);
+        if (!nsplit) break;
+        level++;
+        ncells = 0;
+        for (int k = 0; k < nsplit; k++)
+            for (int child = 0; child < 4; child++) {
+                LatticeCell cell = {c->next[k].patch, 2 * c->next[k].a + child / 2, 2 * c->next[k].b + child % 2};
+                c->cell[ncells++] = cell;
+                if (child == 0) leaves_split(leaves, cell.patch, level, cell.a, cell.b);
+            }
+        test_cells(c, root, body, level, ncells, out);
+        out->leaves += 3 * nsplit;
+        out->depth = level;
+    }
+}

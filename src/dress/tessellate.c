@@ -1,0 +1,107 @@
+/* Stitching by shared numbers: first every leaf marks the lattice places of its own grid, then a
+   facet looks along its sides for places that a finer neighbour has marked in between. */
+#include "dress/tessellate.h"
+
+#include <string.h>
+
+bool sheet_reserve(Sheet *s, const Lattice *lattice, Arena *arena, Error *e) {
+    int places = lattice->nplaces, triangles = 2 * lattice->fit->npatches * lattice->side * lattice->side;
+    *s = (Sheet){.lattice = lattice};
+    s->place = ARENA_NEW(arena, int, places, e);
+    s->vertex = ARENA_NEW(arena, int, places, e);
+    s->triangle = ARENA_NEW(arena, Triangle, triangles, e);
+    s->first_of_patch = ARENA_NEW(arena, int, lattice->fit->npatches + 1, e);
+    s->edge = ARENA_NEW(arena, Edge, 3 * triangles, e);
+    s->first_edge = ARENA_NEW(arena, int, places, e);
+    s->next_edge = ARENA_NEW(arena, int, 3 * triangles, e);
+    return s->place && s->vertex && s->triangle && s->first_of_patch && s->edge && s->first_edge && s->next_edge;
+}
+
+static int vertex_at(Sheet *s, int patch, int i, int j) {
+    int place = lattice_place(s->lattice, patch, i, j);
+    if (s->vertex[place] < 0) {
+        s->vertex[place] = s->nvertices;
+        s->place[s->nvertices++] = place;
+    }
+    return s->vertex[place];
+}
+
+static void add_edge(Sheet *s, int a, int b) {
+    int low = a < b ? a : b, high = a < b ? b : a, k = s->first_edge[low];
+    while (k >= 0 && s->edge[k].v[1] != high) k = s->next_edge[k];
+    if (k >= 0) return;
+    s->edge[s->nedges] = (Edge){{low, high}};
+    s->next_edge[s->nedges] = s->first_edge[low];
+    s->first_edge[low] = s->nedges++;
+}
+
+/* A triangle whose corners are three; patches with a pole have none there. */
+static void add_triangle(Sheet *s, bool flip, int a, int b, int c) {
+    if (a == b || b == c || c == a) return;
+    s->triangle[s->ntriangles++] = flip ? (Triangle){{a, c, b}} : (Triangle){{a, b, c}};
+    add_edge(s, a, b);
+    add_edge(s, b, c);
+    add_edge(s, c, a);
+}
+
+/* Walks from a corner of a facet to the next in steps of one lattice place and lists the corner
+   and the marked places behind it, up to the next corner. */
+static int side_vertices(Sheet *s, int patch, int i, int j, int di, int dj, int stride, int *out) {
+    int n = 0;
+    out[n++] = vertex_at(s, patch, i, j);
+    for (int k = 1; k < stride; k++) {
+        int v = s->vertex[lattice_place(s->lattice, patch, i + k * di, j + k * dj)];
+        if (v >= 0) out[n++] = v;
+    }
+    return n;
+}
+
+static void add_facet(Sheet *s, int patch, int i, int j, int stride) {
+    bool flip = s->lattice->fit->patch[patch].flip;
+    int ring[4 << LATTICE_DEPTH_MAX], n = 0;
+    n += side_vertices(s, patch, i, j, 1, 0, stride, ring);
+    n += side_vertices(s, patch, i + stride, j, 0, 1, stride, ring + n);
+    n += side_vertices(s, patch, i + stride, j + stride, -1, 0, stride, ring + n);
+    n += side_vertices(s, patch, i, j + stride, 0, -1, stride, ring + n);
+    if (n == 4) {
+        add_triangle(s, flip, ring[0], ring[1], ring[2]);
+        add_triangle(s, flip, ring[0], ring[2], ring[3]);
+        return;
+    }
+    int middle = vertex_at(s, patch, i + stride / 2, j + stride / 2); /* a finer neighbour: stride >= 2 */
+    for (int k = 0; k < n; k++) add_triangle(s, flip, middle, ring[k], ring[(k + 1) % n]);
+}
+
+static void mark_leaf(Sheet *s, int patch, int i0, int j0, int stride) {
+    int n = s->lattice->detail;
+    for (int i = 0; i <= n; i++)
+        for (int j = 0; j <= n; j++) vertex_at(s, patch, i0 + i * stride, j0 + j * stride);
+}
+
+static void lay_leaf(Sheet *s, int patch, int i0, int j0, int stride) {
+    int n = s->lattice->detail;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) add_facet(s, patch, i0 + i * stride, j0 + j * stride, stride);
+}
+
+void tessellate(Sheet *s, const Leaves *leaves) {
+    const Lattice *l = s->lattice;
+    int cells = 1 << l->depth;
+    s->nvertices = s->ntriangles = s->nedges = 0;
+    memset(s->vertex, -1, (size_t)l->nplaces * sizeof *s->vertex);
+    for (int pass = 0; pass < 2; pass++) {
+        if (pass == 1) memset(s->first_edge, -1, (size_t)l->nplaces * sizeof *s->first_edge);
+        for (int p = 0; p < l->fit->npatches; p++) {
+            s->first_of_patch[p] = s->ntriangles;
+            for (int x = 0; x < cells; x++)
+                for (int y = 0; y < cells; y++) {
+                    int level = leaf_at(leaves, p, x, y);
+                    if (level < 0) continue;
+                    int stride = 1 << (l->depth - level);
+                    if (pass == 0) mark_leaf(s, p, x * l->detail, y * l->detail, stride);
+                    else lay_leaf(s, p, x * l->detail, y * l->detail, stride);
+                }
+        }
+    }
+    s->first_of_patch[l->fit->npatches] = s->ntriangles;
+}
