@@ -3,10 +3,8 @@
 #ifndef DRESS_FRAME_H
 #define DRESS_FRAME_H
 
-#include "garment/garment.h"
-#include "geometry/crossing.h"
-
-typedef enum { SPLIT_ADAPTIVE, SPLIT_UNIFORM, SPLIT_NONE } SplitRule;
+#include "dress/bodyframe.h"
+#include "dress/refine.h"
 
 /* Zero is the default. */
 typedef struct {
@@ -14,7 +12,6 @@ typedef struct {
     int detail;           /* facets per side of a root patch; 0 = the garment's, else 8 */
     int depth;            /* levels of splitting, 1..3; 0 = 2 */
     bool fixed_topology;  /* one grid over every root patch in every frame */
-    double unit;          /* output units per metre for snapping; 0 = 1 */
 } DressOptions;
 
 /* What happened in one frame, a row of stats.csv. Lengths in metres. */
@@ -24,7 +21,7 @@ typedef struct {
     int vertices, triangles;          /* of the written mesh */
     long long pairs_all, pairs_tested;/* edge-triangle pairs of all tests of the frame */
     int hits_before;                  /* body edges through the global shape */
-    int sweeps, active;               /* solver sweeps, displaced vertices */
+    int sweeps, active;               /* solver sweeps, displaced level vertices */
     double displacement;              /* largest move from the global to the final shape */
     int residual_edges, residual_cloth, inside; /* against the garment's own colliders */
     double deepest;                   /* of the inside vertices */
@@ -35,32 +32,22 @@ typedef struct {
     double global_s, test_s, push_s, mesh_s; /* seconds */
 } FrameStats;
 
-/* The posed body of one frame, shared by all garments. */
-typedef struct {
-    const Body *body;
-    Pose pose;
-    Vec3 *position, *normal;     /* skin.nvertices; positions snapped to the output's precision */
-    CrossingSet edges, triangles;
-} BodyFrame;
-
-MUST_CHECK bool body_frame_init(BodyFrame *f, const Body *body, Arena *arena, Error *e);
-/* unit: output units per metre, for snapping. Allocates nothing. */
-void body_frame_pose(BodyFrame *f, const Pose *pose, double unit);
-
 /* A garment on a figure with the state that is carried from frame to frame. */
 typedef struct Dresser Dresser;
 
-/* Fits the garment to the figure and its body and takes all the memory that frames need. */
+/* Fits the garment to the figure and its body and takes all the memory that frames need. All
+   three must outlive the dresser. */
 MUST_CHECK bool dresser_open(const Garment *garment, const Figure *figure, const Body *body,
                              const DressOptions *options, Arena *arena, Dresser **out, Error *e);
 
 /* Dresses one frame. dt: seconds since the last one; restart: forget the carried state (first
-   frame, teleport). *mesh is filled with arrays of the dresser, valid until the next call:
-   metres, snapped, with normals, u, w and a group for each panel. Allocates nothing. */
+   frame, teleport). *mesh is filled with arrays of the dresser, valid until the next call: in
+   output units (body->unit), snapped, with normals, u, w and a group for each panel. Allocates
+   nothing. */
 void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, Mesh *mesh, FrameStats *stats);
 
-/* Facts for `inspect` and the summary. */
-typedef struct { int patches, panels, seams, openings; unsigned own_parts; } DresserInfo;
+/* Facts for `inspect`. own_parts: bits 1 << role that the garment collides with. */
+typedef struct { int patches, panels, openings; unsigned own_parts; } DresserInfo;
 DresserInfo dresser_info(const Dresser *d);
 
 #endif

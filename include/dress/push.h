@@ -4,26 +4,35 @@
 
 #include "dress/tessellate.h"
 
+/* A mesh vertex near the body, with the level vertices that move it. Private. */
+typedef struct {
+    int vertex, n;
+    unsigned near;                    /* parts (bit 1 << part) worth asking */
+    int id[4 * LATTICE_LEVELS];       /* into Push.displacement */
+    double weight[4 * LATTICE_LEVELS], norm2;
+    double spent, budget;             /* push issued in this frame, and its limit; metres */
+} PushSample;
+
 /* The garment's displacement, carried from frame to frame, and the solver's memory. */
 typedef struct {
     const Lattice *lattice;
     double scale;                     /* lengths inside the method, relative to 1.70 m */
-    Vec3 *displacement[LATTICE_LEVELS]; /* per level vertex; world frame, metres */
-    bool *active[LATTICE_LEVELS];
+    double cap;                       /* longest displacement of a level vertex, metres */
+    int start[LATTICE_LEVELS + 1];    /* level l's vertices are start[l]..start[l + 1) */
+    Vec3 *displacement;               /* per level vertex; world frame, metres */
+    bool *active;
     Vec3 *offset;                     /* per lattice place: the last millimetres */
     Mat3 pelvis;                      /* of the frame that the displacement belongs to */
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
     double *clearance;                /* per mesh vertex: distance asked for */
-    double *spent;                    /* per mesh vertex: push it has issued in this frame */
-    double *budget;
-    unsigned *near;                   /* per mesh vertex: parts (bit 1 << part) worth asking */
-    int *queue;                       /* mesh vertices near the body */
-    int nqueue;
+    PushSample *sample;
+    int nsamples;
+    int *raised, nraised;             /* mesh vertices that were asked for more */
 } Push;
 
 typedef struct {
     int sweeps, active, pinched;
-    double displacement;  /* largest move from the global shape */
+    double displacement;              /* largest move from the global shape */
     bool capped;
 } PushResult;
 

@@ -21,6 +21,9 @@ void leaves_fill(Leaves *leaves, int level);
 /* Splits until the leaves over cell (a, b) of `level` are at that level or deeper. */
 void leaves_split(Leaves *leaves, int patch, int level, int a, int b);
 
+/* Splits until all cells round a level vertex are at its level, so that it may move. */
+void leaves_open(Leaves *leaves, int level, int vertex);
+
 int leaves_count(const Leaves *leaves);
 
 /* The leaf whose first deepest cell is (x, y), if one starts there: returns its level or -1. */
@@ -56,7 +59,9 @@ MUST_CHECK bool classifier_reserve(Classifier *c, const Lattice *lattice, Arena 
 /* The paper's rule on the global shape. A patch is hit if an edge of one of its colliders
    crosses its triangles (detail x detail x 2) or a corner of them lies inside. A patch that is
    hit is split in four, and all four are tested; where two that share a side are hit, splitting
-   ends there; else those that are hit are split again, down to the lattice's depth. */
+   ends there; else those that are hit are split again, down to the lattice's depth. The
+   corners of the leaves that are hit are opened (see leaves_open); the numbers in *out are those
+   of the rule alone. */
 void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule rule, Leaves *leaves, Classification *out);
 
 #endif

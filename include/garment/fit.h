@@ -46,6 +46,7 @@ typedef struct {
     double scale;      /* girth of the figure against the reference */
     double height;     /* stature, metres */
     int nnodes, ncurves, npanels, npatches, npoints;
+    int nopenings;     /* loops of sides that are sewn to nothing: waist, hem, cuffs */
     FitNode *node;
     FitCurve *curve;
     FitPanel *panel;
@@ -54,6 +55,9 @@ typedef struct {
     Vec3 (*raw)[16];   /* control points of raw patches, sized to the figure */
     unsigned own;      /* all parts that any patch collides with */
 } Fit;
+
+/* Names of the four control points along a side, in the direction of growing u or w. */
+void fit_side(const FitPatch *patch, Side side, int out[4]);
 
 /* Sizes `garment` to the figure. The garment must outlive the fit. ERR_INPUT where it names a
    part that this body does not have or where shared edges do not agree. */

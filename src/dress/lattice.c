@@ -4,12 +4,6 @@
 
 #include <string.h>
 
-/* Control points along a side, in the direction of growing u or w. */
-static void side_names(const FitPatch *p, Side side, int out[4]) {
-    for (int k = 0; k < 4; k++)
-        out[k] = p->point[side == SIDE_START ? k : side == SIDE_END ? 12 + k : side == SIDE_TOP ? 4 * k : 4 * k + 3];
-}
-
 /* Lattice coordinates of step k along a side. */
 static void side_place(const Lattice *l, Side side, int k, int *i, int *j) {
     *i = side == SIDE_START ? 0 : side == SIDE_END ? l->side : k;
@@ -21,10 +15,10 @@ static int *slot(const Lattice *l, int patch, int i, int j) { return &l->place[(
 /* The place of a side's step that an earlier side with the same names has numbered, or -1. */
 static bool find_twin(const Lattice *l, int patch, Side side, int *twin_patch, Side *twin, bool *reversed) {
     int mine[4], other[4];
-    side_names(&l->fit->patch[patch], side, mine);
+    fit_side(&l->fit->patch[patch], side, mine);
     for (int p = 0; p <= patch; p++)
         for (int s = 0; s < (p < patch ? 4 : (int)side); s++) {
-            side_names(&l->fit->patch[p], (Side)s, other);
+            fit_side(&l->fit->patch[p], (Side)s, other);
             bool same = true, back = true;
             for (int k = 0; k < 4; k++) {
                 same = same && mine[k] == other[k];

@@ -32,6 +32,12 @@ void leaves_split(Leaves *leaves, int patch, int level, int a, int b) {
     }
 }
 
+void leaves_open(Leaves *leaves, int level, int vertex) {
+    const LatticeLevel *l = &leaves->lattice->level[level];
+    for (int k = l->first_cell[vertex]; k < l->first_cell[vertex + 1]; k++)
+        leaves_split(leaves, l->cell[k].patch, level, l->cell[k].a, l->cell[k].b);
+}
+
 int leaves_count(const Leaves *leaves) {
     int cells = 1 << leaves->lattice->depth, n = 0;
     for (int p = 0; p < leaves->lattice->fit->npatches; p++)
@@ -129,6 +135,17 @@ static int choose(const Classifier *c, int level, int ncells, LatticeCell *out) 
     return n;
 }
 
+/* Lets the corners of the hit cells move: the field needs all cells round a vertex. */
+static void open_corners(const Classifier *c, int level, int ncells, Leaves *leaves) {
+    const LatticeLevel *l = &c->lattice->level[level];
+    int n = (1 << level) + 1;
+    for (int k = 0; k < ncells; k++)
+        for (int corner = 0; c->hit[k] && corner < 4; corner++) {
+            LatticeCell cell = c->cell[k];
+            leaves_open(leaves, level, l->vertex[(cell.patch * n + cell.a + corner / 2) * n + cell.b + corner % 2]);
+        }
+}
+
 static int all_cells(const Lattice *l, int level, LatticeCell *out) {
     int n = 0, cells = 1 << level;
     for (int p = 0; p < l->fit->npatches; p++)
@@ -157,6 +174,7 @@ void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule
                 if (child == 0) leaves_split(leaves, cell.patch, level, cell.a, cell.b);
             }
         test_cells(c, root, body, level, ncells, out);
+        open_corners(c, level, ncells, leaves);
         out->leaves += 3 * nsplit;
         out->depth = level;
     }

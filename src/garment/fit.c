@@ -378,6 +378,7 @@ static bool sew(Tailor *t, Error *e) {
             if (vec_dist(pa[x], pb[y]) > 1e-5)
                 return error_set(e, ERR_INPUT, "garment '%s': the sides of seam %d do not meet", t->g->name, k + 1);
             rename_point(f, f->patch[first_raw + b].point[y], f->patch[first_raw + a].point[x]);
+            f->raw[b][y] = f->raw[a][x];
         }
     }
     return true;
@@ -396,6 +397,45 @@ static bool number_points(Tailor *t, Error *e) {
             f->patch[p].point[c] = id;
         }
     return true;
+}
+
+void fit_side(const FitPatch *patch, Side side, int out[4]) {
+    int index[4];
+    side_points(side, index);
+    for (int k = 0; k < 4; k++) out[k] = patch->point[index[k]];
+}
+
+static bool is_border(const Fit *f, int patch, Side side) {
+    int mine[4], other[4];
+    fit_side(&f->patch[patch], side, mine);
+    for (int p = 0; p < f->npatches; p++)
+        for (int s = 0; s < 4; s++) {
+            if (p == patch && s == (int)side) continue;
+            fit_side(&f->patch[p], (Side)s, other);
+            bool same = other[1] == mine[1] && other[2] == mine[2], back = other[1] == mine[2] && other[2] == mine[1];
+            if (same || back) return false;
+        }
+    return true;
+}
+
+/* Border sides hang together at corners; each loop of them is an opening. label: npoints values. */
+static int count_openings(const Fit *f, int *label) {
+    int loops = 0;
+    for (int k = 0; k < f->npoints; k++) label[k] = -1;
+    for (int p = 0; p < f->npatches; p++)
+        for (int s = 0; s < 4; s++) {
+            if (!is_border(f, p, (Side)s)) continue;
+            int side[4];
+            fit_side(&f->patch[p], (Side)s, side);
+            int a = label[side[0]], b = label[side[3]];
+            if (a < 0 && b < 0) loops++;
+            else if (a >= 0 && b >= 0 && a != b) loops--;
+            int mine = a >= 0 ? a : b >= 0 ? b : side[0];
+            for (int k = 0; k < f->npoints && b >= 0 && b != mine; k++)
+                if (label[k] == b) label[k] = mine;
+            label[side[0]] = label[side[3]] = mine;
+        }
+    return loops;
 }
 
 /* A patch for which nothing is said meets every part that the garment names at all. */
@@ -419,5 +459,8 @@ bool fit_garment(const Garment *garment, const Figure *figure, const Body *body,
         for (int k = 0; k + 1 < out->panel[p].nrows; k++) make_panel_patch(&t, p, k);
     if (!make_raw_patches(&t, e) || !sew(&t, e) || !number_points(&t, e)) return false;
     complete_colliders(out);
+    int *label = ARENA_NEW(arena, int, out->npoints, e);
+    if (!label) return false;
+    out->nopenings = count_openings(out, label);
     return true;
 }

@@ -1,0 +1,209 @@
+/* One frame:
+
+     follow     the root patches follow the pose (global deformation)
+     classify   which patches intersect, split those in four (the paper's rule)
+     carry      what the last frame displaced fades, and keeps its patches split
+     tessellate leaves to one watertight mesh
+     push       displace shared vertices until they keep their distance
+     test       body edges against cloth, cloth edges against body, on the mesh that is written;
+                what is found asks for more distance there, and so on to a cap */
+#include "dress/frame.h"
+
+#include "base/clock.h"
+#include "dress/follow.h"
+#include "dress/push.h"
+#include "dress/residual.h"
+
+enum { DETAIL_DEFAULT = 8, DEPTH_DEFAULT = 2, ROUNDS_MAX = 8 };
+static const double RAISE = 0.0015; /* metres of clearance added where an edge still crosses, on 1.70 m */
+
+struct Dresser {
+    DressOptions options;
+    Fit fit;
+    Follower follower;
+    Lattice lattice;
+    Patch *root;
+    Classifier classifier;
+    Leaves leaves, grid; /* grid: what is tessellated under a fixed topology */
+    Sheet sheet;
+    Push push;
+    Tester tester;
+    Vec3 *position, *normal; /* of the written mesh */
+    double *u, *w;
+    MeshGroup *group;
+    int ngroups, *group_of; /* of every patch */
+};
+
+static const char *piece_name(const Fit *fit, int patch) {
+    const FitPatch *p = &fit->patch[patch];
+    return p->panel < 0 ? fit->garment->patch[p->row].name : fit->panel[p->panel].name;
+}
+
+/* Triangles lie patch by patch, and patches panel by panel: each panel is one group. */
+static bool make_groups(Dresser *d, Arena *arena, Error *e) {
+    d->group = ARENA_NEW(arena, MeshGroup, d->fit.npatches, e);
+    d->group_of = ARENA_NEW(arena, int, d->fit.npatches, e);
+    if (!d->group || !d->group_of) return false;
+    for (int p = 0; p < d->fit.npatches; p++) {
+        const char *name = piece_name(&d->fit, p);
+        if (p == 0 || name != d->group[d->ngroups - 1].name) d->group[d->ngroups++].name = name;
+        d->group_of[p] = d->ngroups - 1;
+    }
+    return true;
+}
+
+bool dresser_open(const Garment *garment, const Figure *figure, const Body *body, const DressOptions *options, Arena *arena,
+                  Dresser **out, Error *e) {
+    Dresser *d = ARENA_NEW(arena, Dresser, 1, e);
+    if (!d) return false;
+    d->options = *options;
+    int detail = options->detail ? options->detail : garment->detail ? garment->detail : DETAIL_DEFAULT;
+    int depth = options->depth ? options->depth : DEPTH_DEFAULT;
+    if (!fit_garment(garment, figure, body, arena, &d->fit, e) ||
+        !follow_reserve(&d->follower, &d->fit, figure, body, arena, e) ||
+        !lattice_build(&d->fit, detail, depth, arena, &d->lattice, e) ||
+        !classifier_reserve(&d->classifier, &d->lattice, arena, e) || !leaves_reserve(&d->leaves, &d->lattice, arena, e) ||
+        !leaves_reserve(&d->grid, &d->lattice, arena, e) || !sheet_reserve(&d->sheet, &d->lattice, arena, e) ||
+        !push_reserve(&d->push, &d->lattice, arena, e) || !make_groups(d, arena, e))
+        return false;
+    int triangles = 2 * d->fit.npatches * d->lattice.side * d->lattice.side, places = d->lattice.nplaces;
+    d->root = ARENA_NEW(arena, Patch, d->fit.npatches, e);
+    d->position = ARENA_NEW(arena, Vec3, places, e);
+    d->normal = ARENA_NEW(arena, Vec3, places, e);
+    d->u = ARENA_NEW(arena, double, places, e);
+    d->w = ARENA_NEW(arena, double, places, e);
+    if (!d->root || !d->position || !d->normal || !d->u || !d->w) return false;
+    if (!tester_reserve(&d->tester, 3 * triangles, triangles, arena, e)) return false;
+    leaves_fill(&d->grid, depth);
+    *out = d;
+    return true;
+}
+
+/* The points that a reader of the file gets. */
+static void snap_points(Dresser *d, double unit) {
+    for (int v = 0; v < d->sheet.nvertices; v++) {
+        Vec3 p = vec_scale(d->push.point[v], unit);
+        d->position[v] = vec(mesh_snap(p.x), mesh_snap(p.y), mesh_snap(p.z));
+    }
+    tester_build(&d->tester, d->position, d->sheet.edge, d->sheet.nedges, d->sheet.triangle, d->sheet.ntriangles);
+}
+
+/* Asks for more distance round everything that still crosses an own collider. Returns how many
+   pairs there are; *raised tells whether any vertex could be asked. */
+static int raise_crossings(Dresser *d, const BodyFrame *body, CrossingCount *count, bool *raised) {
+    int hits = 0;
+    *raised = false;
+    for (int part = 0; part < body->body->nparts; part++) {
+        if (!(d->fit.own & part_bit(body, part))) continue;
+        int n = crossing_find(&body->edges[part], &d->tester.triangles, d->tester.found, d->tester.capacity, count);
+        for (int k = 0; k < n; k++)
+            for (int c = 0; c < 3; c++) *raised |= push_raise(&d->push, d->sheet.triangle[d->tester.found[k].triangle].v[c], RAISE);
+        hits += n;
+        n = crossing_find(&d->tester.edges, &body->triangles[part], d->tester.found, d->tester.capacity, count);
+        for (int k = 0; k < n; k++)
+            for (int c = 0; c < 2; c++) *raised |= push_raise(&d->push, d->sheet.edge[d->tester.found[k].edge].v[c], RAISE);
+        hits += n;
+    }
+    return hits;
+}
+
+/* Tests the mesh and mends what chords of facets cut, until nothing is left or a cap. */
+static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
+    PushResult result;
+    double start = clock_seconds();
+    push_solve(&d->push, d->root, body, &d->leaves, &d->sheet, &result);
+    stats->push_s += clock_seconds() - start;
+    for (int round = 0;; round++) {
+        bool raised;
+        start = clock_seconds();
+        snap_points(d, body->unit);
+        int hits = raise_crossings(d, body, count, &raised);
+        double tested = clock_seconds();
+        stats->test_s += tested - start;
+        if (!hits) break;
+        if (!raised || round == ROUNDS_MAX) {
+            stats->capped = true;
+            break;
+        }
+        push_settle(&d->push, body, &d->sheet, &result);
+        stats->push_s += clock_seconds() - tested;
+    }
+    stats->sweeps = result.sweeps;
+    stats->active = result.active;
+    stats->pinched = result.pinched;
+    stats->displacement = result.displacement;
+    stats->capped |= result.capped;
+}
+
+static void final_test(Dresser *d, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
+    double start = clock_seconds();
+    Residual own = {0}, limbs = {0};
+    tester_count(&d->tester, body, d->fit.own, d->position, d->sheet.nvertices, &own, count);
+    tester_count(&d->tester, body, ~d->fit.own, d->position, d->sheet.nvertices, &limbs, count);
+    stats->residual_edges = own.edges;
+    stats->residual_cloth = own.cloth;
+    stats->inside = own.inside;
+    stats->deepest = own.deepest;
+    stats->limb_edges = limbs.edges;
+    stats->limb_cloth = limbs.cloth;
+    stats->limb_inside = limbs.inside;
+    stats->test_s += clock_seconds() - start;
+}
+
+static void fill_mesh(Dresser *d, Mesh *mesh) {
+    const Sheet *s = &d->sheet;
+    int n = d->lattice.side + 1;
+    for (int v = 0; v < s->nvertices; v++) {
+        int owner = d->lattice.owner[s->place[v]];
+        d->normal[v] = push_normal(&d->push, d->root, s, v);
+        d->u[v] = (double)(owner / n % n) / d->lattice.side;
+        d->w[v] = (double)(owner % n) / d->lattice.side;
+    }
+    for (int g = 0; g < d->ngroups; g++) d->group[g].count = 0;
+    for (int p = d->fit.npatches - 1; p >= 0; p--) {
+        MeshGroup *group = &d->group[d->group_of[p]];
+        group->first = s->first_of_patch[p];
+        group->count += s->first_of_patch[p + 1] - s->first_of_patch[p];
+    }
+    *mesh = (Mesh){.nvertices = s->nvertices, .ntriangles = s->ntriangles, .nedges = s->nedges, .ngroups = d->ngroups,
+                   .position = d->position, .normal = d->normal, .u = d->u, .w = d->w,
+                   .triangle = s->triangle, .edge = s->edge, .group = d->group};
+}
+
+void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, Mesh *mesh, FrameStats *stats) {
+    *stats = (FrameStats){.restarted = restart};
+    double start = clock_seconds();
+    follow_pose(&d->follower, &body->pose, d->root);
+    double followed = clock_seconds();
+    stats->global_s = followed - start;
+
+    Classification found;
+    classify(&d->classifier, d->root, body, d->options.split, &d->leaves, &found);
+    double classified = clock_seconds();
+    stats->test_s = classified - followed;
+
+    push_carry(&d->push, body, dt, restart, &d->leaves);
+    tessellate(&d->sheet, d->options.fixed_topology ? &d->grid : &d->leaves);
+    stats->mesh_s = clock_seconds() - classified;
+
+    push_and_test(d, body, stats, &found.count);
+    final_test(d, body, stats, &found.count);
+
+    start = clock_seconds();
+    fill_mesh(d, mesh);
+    stats->mesh_s += clock_seconds() - start;
+    stats->nodes = found.nodes;
+    stats->leaves = found.leaves;
+    stats->depth = found.depth;
+    stats->cells = leaves_count(&d->leaves);
+    stats->vertices = d->sheet.nvertices;
+    stats->triangles = d->sheet.ntriangles;
+    stats->pairs_all = found.count.pairs_all;
+    stats->pairs_tested = found.count.pairs_tested;
+    stats->hits_before = found.hits;
+    stats->capped |= found.capped;
+}
+
+DresserInfo dresser_info(const Dresser *d) {
+    return (DresserInfo){.patches = d->fit.npatches, .panels = d->ngroups, .openings = d->fit.nopenings, .own_parts = d->fit.own};
+}

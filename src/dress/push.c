@@ -1,0 +1,286 @@
+/* Local deformation as a feasibility problem: every mesh vertex must keep its clearance from the
+   parts it collides with. A violated one is a half space; projecting onto half spaces in turn
+   (Kaczmarz, POCS) needs no step size, so 30 and 120 frames a second give the same shape.
+
+   The unknowns are the displacements of level vertices, coarse and fine together: a projection
+   moves all that reach the sample, in proportion to their weights, by the least change. What that
+   cannot settle (pinned borders, a chord across a bulge) is left to offsets of single vertices. */
+#include "dress/push.h"
+
+#include <string.h>
+
+/* Caps and tolerances, metres on a figure of 1.70 m where they are lengths. */
+enum { SWEEPS_MAX = 30, ROUNDS_MAX = 3, SETTLES_MAX = 4 };
+static const double REACH = 0.04;       /* vertices farther from the body are not swept */
+static const double SLACK = 0.1;        /* share of the clearance that may be missing after sweeps */
+static const double FADE = 0.8;         /* of the carried displacement, in 1/30 s */
+static const double FELT = 0.0002;      /* a carried displacement below this is dropped */
+static const double NORM_MIN = 0.02;    /* a sample that level vertices hardly move is left to offsets */
+static const double BUDGET = 0.02;      /* a sample may issue twice its first violation and this */
+static const double RAISE_MAX = 0.02;   /* most extra clearance */
+
+bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
+    *p = (Push){.lattice = lattice, .scale = lattice->fit->height / 1.70, .pelvis = mat_identity()};
+    p->cap = lattice->fit->height / (lattice->fit->garment->loose ? 7 : 20);
+    for (int l = 0; l <= lattice->depth; l++) p->start[l + 1] = p->start[l] + lattice->level[l].count;
+    for (int l = lattice->depth + 1; l < LATTICE_LEVELS; l++) p->start[l + 1] = p->start[l];
+    int unknowns = p->start[LATTICE_LEVELS], places = lattice->nplaces;
+    p->displacement = ARENA_NEW(arena, Vec3, unknowns, e);
+    p->active = ARENA_NEW(arena, bool, unknowns, e);
+    p->offset = ARENA_NEW(arena, Vec3, places, e);
+    p->global = ARENA_NEW(arena, Vec3, places, e);
+    p->point = ARENA_NEW(arena, Vec3, places, e);
+    p->clearance = ARENA_NEW(arena, double, places, e);
+    p->sample = ARENA_NEW(arena, PushSample, places, e);
+    p->raised = ARENA_NEW(arena, int, places, e);
+    return p->displacement && p->active && p->offset && p->global && p->point && p->clearance && p->sample && p->raised;
+}
+
+static bool is_zero(Vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
+/* One carried vector; false once it is no longer felt. */
+static bool carry(Vec3 *d, Mat3 turn, double fade, double felt) {
+    if (is_zero(*d)) return false;
+    *d = vec_scale(mat_apply(turn, *d), fade);
+    if (vec_dot(*d, *d) > felt * felt) return true;
+    *d = vec(0, 0, 0);
+    return false;
+}
+
+void push_carry(Push *p, const BodyFrame *body, double dt, bool restart, Leaves *leaves) {
+    const Lattice *l = p->lattice;
+    double fade = restart ? 0 : pow(FADE, dt * 30), felt = FELT * p->scale;
+    Mat3 pelvis = body->pose.bone[ROLE_PELVIS].r, turn = mat_mul(pelvis, mat_transpose(p->pelvis));
+    for (int level = 0; level <= l->depth; level++)
+        for (int v = 0; v < l->level[level].count; v++)
+            if (carry(&p->displacement[p->start[level] + v], turn, fade, felt)) leaves_open(leaves, level, v);
+    for (int v = 0; v < l->nplaces; v++) carry(&p->offset[v], turn, fade, felt);
+    p->pelvis = pelvis;
+}
+
+/* A level vertex may move where all cells round it are split to its level and no pin holds it. */
+static void find_active(Push *p, const Leaves *leaves) {
+    const Lattice *l = p->lattice;
+    int cells = 1 << l->depth;
+    for (int level = 0; level <= l->depth; level++) {
+        const LatticeLevel *at = &l->level[level];
+        int size = 1 << (l->depth - level);
+        for (int v = 0; v < at->count; v++) {
+            bool all = !at->pinned[v];
+            for (int k = at->first_cell[v]; all && k < at->first_cell[v + 1]; k++) {
+                LatticeCell c = at->cell[k];
+                all = leaves->level[(c.patch * cells + c.a * size) * cells + c.b * size] >= level;
+            }
+            p->active[p->start[level] + v] = all;
+        }
+    }
+}
+
+static void owner_of(const Lattice *l, int place, int *patch, int *i, int *j) {
+    int n = l->side + 1, o = l->owner[place];
+    *patch = o / (n * n);
+    *i = o / n % n;
+    *j = o % n;
+}
+
+static Vec3 global_point(const Lattice *l, const Patch *root, int place) {
+    int patch, i, j;
+    owner_of(l, place, &patch, &i, &j);
+    const double *bu = l->basis[i], *bw = l->basis[j];
+    Vec3 sum = {0, 0, 0};
+    for (int k = 0; k < 4; k++) {
+        const Vec3 *p = root[patch].p[k];
+        Vec3 row = vec_mad(vec_mad(vec_mad(vec_scale(p[0], bw[0]), p[1], bw[1]), p[2], bw[2]), p[3], bw[3]);
+        sum = vec_mad(sum, row, bu[k]);
+    }
+    return sum;
+}
+
+/* The field at a place: the sum over all levels (without the offset). */
+static Vec3 field(const Push *p, int place) {
+    const Lattice *l = p->lattice;
+    int patch, i, j, vertex[4];
+    double weight[4];
+    Vec3 d = {0, 0, 0};
+    owner_of(l, place, &patch, &i, &j);
+    for (int level = 0; level <= l->depth; level++) {
+        lattice_weights(l, level, patch, i, j, vertex, weight, NULL, NULL);
+        for (int k = 0; k < 4; k++) d = vec_mad(d, p->displacement[p->start[level] + vertex[k]], weight[k]);
+    }
+    return d;
+}
+
+static Vec3 sample_point(const Push *p, const Sheet *sheet, const PushSample *s) {
+    Vec3 x = vec_add(p->global[s->vertex], p->offset[sheet->place[s->vertex]]);
+    for (int k = 0; k < s->n; k++) x = vec_mad(x, p->displacement[s->id[k]], s->weight[k]);
+    return x;
+}
+
+/* Parts of the garment's own colliders at a place that lie within `far` of x. */
+static unsigned parts_near(const Push *p, const BodyFrame *body, int place, Vec3 x, double far) {
+    unsigned near = 0, collide = p->lattice->collide[place];
+    for (int k = 0; k < body->body->nparts; k++)
+        if (collide & part_bit(body, k) && body_frame_distance(body, k, x, far, NULL) < far) near |= 1u << k;
+    return near;
+}
+
+static void add_sample(Push *p, const Sheet *sheet, int vertex, unsigned near) {
+    const Lattice *l = p->lattice;
+    PushSample *s = &p->sample[p->nsamples++];
+    *s = (PushSample){.vertex = vertex, .near = near, .budget = -1};
+    int patch, i, j, id[4];
+    double weight[4];
+    owner_of(l, sheet->place[vertex], &patch, &i, &j);
+    for (int level = 0; level <= l->depth; level++) {
+        lattice_weights(l, level, patch, i, j, id, weight, NULL, NULL);
+        for (int k = 0; k < 4; k++) {
+            int unknown = p->start[level] + id[k];
+            if (weight[k] <= 0 || !p->active[unknown]) continue;
+            s->id[s->n] = unknown;
+            s->weight[s->n++] = weight[k];
+            s->norm2 += weight[k] * weight[k];
+        }
+    }
+}
+
+static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
+    double far = (PUSH_MARGIN + REACH) * p->scale;
+    p->nsamples = 0;
+    for (int v = 0; v < sheet->nvertices; v++) {
+        p->point[v] = vec_add(vec_add(p->global[v], p->offset[sheet->place[v]]), field(p, sheet->place[v]));
+        unsigned near = parts_near(p, body, sheet->place[v], p->point[v], far);
+        if (near) add_sample(p, sheet, v, near);
+    }
+}
+
+static Vec3 limit(Vec3 d, double cap, bool *capped) {
+    double n = vec_len(d);
+    if (n <= cap) return d;
+    *capped = true;
+    return vec_scale(d, cap / n);
+}
+
+/* Moves a sample by `depth` along n with the least change of the unknowns. */
+static void project(Push *p, PushSample *s, const Sheet *sheet, Vec3 n, double depth, PushResult *result) {
+    if (s->norm2 > NORM_MIN) {
+        for (int k = 0; k < s->n; k++) {
+            Vec3 *d = &p->displacement[s->id[k]];
+            *d = limit(vec_mad(*d, n, depth * s->weight[k] / s->norm2), p->cap, &result->capped);
+        }
+    } else {
+        Vec3 *o = &p->offset[sheet->place[s->vertex]];
+        *o = limit(vec_mad(*o, n, depth), p->cap, &result->capped);
+    }
+}
+
+/* One pass over all samples; returns how far a sample was pushed at most, 0 = nothing to do. */
+static double sweep(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
+    double most = 0;
+    for (int k = 0; k < p->nsamples; k++) {
+        PushSample *s = &p->sample[k];
+        double clearance = p->clearance[s->vertex];
+        for (int part = 0; s->near >> part; part++) {
+            if (!(s->near >> part & 1)) continue;
+            Vec3 n, x = sample_point(p, sheet, s);
+            double depth = clearance - body_frame_distance(body, part, x, clearance, &n);
+            if (depth <= SLACK * clearance) continue;
+            if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->scale;
+            if (s->spent > s->budget) continue; /* pinched: it has had its say */
+            s->spent += depth;
+            project(p, s, sheet, n, depth, result);
+            if (depth > most) most = depth;
+        }
+    }
+    return most;
+}
+
+/* Single vertices that the sweeps left too near are moved by their own offset. */
+static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, unsigned near) {
+    Vec3 *o = &p->offset[sheet->place[vertex]];
+    for (int step = 0; step < SETTLES_MAX; step++) {
+        bool moved = false;
+        for (int part = 0; near >> part; part++) {
+            if (!(near >> part & 1)) continue;
+            Vec3 n;
+            double depth = p->clearance[vertex] - body_frame_distance(body, part, p->point[vertex], p->clearance[vertex], &n);
+            if (depth <= SLACK * p->clearance[vertex]) continue;
+            *o = vec_mad(*o, n, depth);
+            p->point[vertex] = vec_mad(p->point[vertex], n, depth);
+            moved = true;
+        }
+        if (!moved) return;
+    }
+}
+
+static void measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
+    result->active = result->pinched = 0;
+    result->displacement = 0;
+    for (int k = 0; k < p->start[LATTICE_LEVELS]; k++) result->active += !is_zero(p->displacement[k]);
+    for (int v = 0; v < sheet->nvertices; v++) result->displacement = fmax(result->displacement, vec_dist(p->point[v], p->global[v]));
+    for (int k = 0; k < p->nsamples; k++) {
+        const PushSample *s = &p->sample[k];
+        if (s->budget >= 0 && parts_near(p, body, sheet->place[s->vertex], p->point[s->vertex], 0)) result->pinched++;
+    }
+}
+
+void push_solve(Push *p, const Patch *root, const BodyFrame *body, const Leaves *leaves, const Sheet *sheet, PushResult *result) {
+    *result = (PushResult){0};
+    p->nraised = 0;
+    find_active(p, leaves);
+    for (int v = 0; v < sheet->nvertices; v++) {
+        p->global[v] = global_point(p->lattice, root, sheet->place[v]);
+        p->clearance[v] = PUSH_MARGIN * p->scale;
+    }
+    for (int round = 0; round < ROUNDS_MAX; round++) {
+        double moved = 0;
+        find_samples(p, body, sheet);
+        for (int k = 0; k < SWEEPS_MAX; k++) {
+            double most = sweep(p, body, sheet, result);
+            if (most <= 0) break;
+            moved += most;
+            result->sweeps++;
+            if (k + 1 == SWEEPS_MAX) result->capped = true;
+        }
+        if (moved < REACH * p->scale) break; /* nobody can have come near who was not */
+    }
+    for (int v = 0; v < sheet->nvertices; v++)
+        p->point[v] = vec_add(vec_add(p->global[v], p->offset[sheet->place[v]]), field(p, sheet->place[v]));
+    for (int k = 0; k < p->nsamples; k++) settle_vertex(p, body, sheet, p->sample[k].vertex, p->sample[k].near);
+    measure(p, body, sheet, result);
+}
+
+bool push_raise(Push *p, int vertex, double by) {
+    double most = (PUSH_MARGIN + RAISE_MAX) * p->scale;
+    if (p->clearance[vertex] >= most) return false;
+    if (p->clearance[vertex] <= PUSH_MARGIN * p->scale) p->raised[p->nraised++] = vertex; /* its first time */
+    p->clearance[vertex] = fmin(p->clearance[vertex] + by * p->scale, most);
+    return true;
+}
+
+void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
+    for (int k = 0; k < p->nraised; k++) {
+        int v = p->raised[k];
+        settle_vertex(p, body, sheet, v, parts_near(p, body, sheet->place[v], p->point[v], p->clearance[v]));
+    }
+    measure(p, body, sheet, result);
+}
+
+Vec3 push_normal(const Push *p, const Patch *root, const Sheet *sheet, int vertex) {
+    const Lattice *l = p->lattice;
+    int patch, i, j, id[4];
+    owner_of(l, sheet->place[vertex], &patch, &i, &j);
+    Vec3 du, dw;
+    bezier_point(&root[patch], (double)i / l->side, (double)j / l->side, &du, &dw);
+    for (int level = 0; level <= l->depth; level++) {
+        double weight[4], wu[4], ww[4];
+        lattice_weights(l, level, patch, i, j, id, weight, wu, ww);
+        for (int k = 0; k < 4; k++) {
+            du = vec_mad(du, p->displacement[p->start[level] + id[k]], wu[k]);
+            dw = vec_mad(dw, p->displacement[p->start[level] + id[k]], ww[k]);
+        }
+    }
+    Vec3 n = vec_cross(du, dw);
+    if (vec_len(n) < 1e-12) n = bezier_normal(&root[patch], (double)i / l->side, (double)j / l->side);
+    n = vec_unit_or(n, vec(0, 1, 0));
+    return l->fit->patch[patch].flip ? vec_scale(n, -1) : n;
+}
