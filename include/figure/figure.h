@@ -19,8 +19,10 @@ typedef struct {
     Vec3 start[ROLE_COUNT];    /* where each bone begins in the canonical stance */
     Vec3 end[ROLE_COUNT];      /* where it ends (the next joint, or the tip) */
     Roles roles;
-    Mat3 bind[ROLE_COUNT];     /* private: joint frame <- canonical, for bones with a frame */
     const char *rest;          /* how the bind was found, for `inspect`: "T-pose offsets", ... */
+    Rigid bind[ROLE_COUNT];    /* private: canonical -> joint frame (metres), for bones that turn with a joint */
+    bool bound[ROLE_COUNT];    /* private: those bones */
+    int toward[ROLE_COUNT];    /* private: joint or end site that the bone points to; -1 = it follows its parent */
 } Figure;
 
 /* Rigid transforms canonical stance -> world (metres, Y up), one for each role bone. */

@@ -1,0 +1,28 @@
+/* Some frames of a motion, spread evenly over it: what a skeleton is can only be seen where
+   it moves, because rest poses lie. */
+#ifndef FIGURE_SAMPLE_H
+#define FIGURE_SAMPLE_H
+
+#include "motion/motion.h"
+
+typedef struct {
+    int count, njoints;
+    const int *frame;   /* which frame of the motion each one is */
+    const Rigid *world; /* count x njoints, file units and axes */
+} Sample;
+
+/* At most `wanted` frames. Long motions give their first frame, often a T-pose that is no
+   part of the take, no vote. */
+MUST_CHECK bool sample_read(const Motion *m, int wanted, Arena *arena, Sample *out, Error *e);
+
+static inline Rigid sample_at(const Sample *s, int i, int joint) { return s->world[(long)i * s->njoints + joint]; }
+static inline Vec3 sample_point(const Sample *s, int i, int joint) { return s->world[(long)i * s->njoints + joint].t; }
+
+/* Mean distance between two joints, file units. */
+double sample_distance(const Sample *s, int a, int b);
+
+/* The joint below `joint` (end sites too) that lies farthest from it in the first frame of
+   the sample; -1 where nothing below it has any distance. */
+int sample_tip(const Sample *s, const Skeleton *skeleton, int joint);
+
+#endif

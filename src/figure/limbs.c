@@ -1,0 +1,166 @@
+/* Legs and arms are what makes a skeleton human: two chains of two long bones that leave one
+   joint and mirror each other in length. Every way to lay such a chain into the tree gets
+   points: for names that say so, for two bones of like length, for covering most of the way
+   to the tip. Names weigh most, so they settle what they know; shape decides the rest, so a
+   skeleton with meaningless names is found by the same search. */
+#include "figure/limbs.h"
+
+#include <string.h>
+
+enum {
+    DEPTH_MAX = 18,    /* joints of a chain that are looked at, hub to fingertip */
+    START_MAX = 5,     /* a limb begins at most so many joints below the hub */
+    CHILDREN_MAX = 12, /* children of a hub that are tried */
+};
+
+/* Points. A fully named pair gets about 50, a well shaped one about 10 more. */
+static const double LONG_BONE_NAMED = 10, END_NAMED = 6, CLAVICLE_NAMED = 4, SIDES_NAMED = 5;
+static const double COVERAGE = 6, UNEVEN = 3, SKIPPED = 0.4, FAR_START = 4, NO_END_JOINT = 1, MIRROR = 8;
+
+/* ln(upper / lower bone): leg 0.415 m / 0.39 m, arm 0.28 / 0.25 in the reference figure. */
+static const double EVEN[2] = {0.06, 0.11};
+
+bool tree_build(const Skeleton *skeleton, const Sample *sample, Arena *arena, Tree *out, Error *e) {
+    int n = skeleton->njoints;
+    Tree t = {skeleton, sample, ARENA_NEW(arena, NameHint, n, e), ARENA_NEW(arena, int, n, e),
+              ARENA_NEW(arena, int, n, e), ARENA_NEW(arena, double, n, e), ARENA_NEW(arena, double, n, e)};
+    if (!t.hint || !t.child || !t.sibling || !t.bone || !t.reach) return false;
+    for (int j = 0; j < n; j++) t.child[j] = t.sibling[j] = -1;
+    for (int j = n - 1; j >= 0; j--) {
+        int parent = skeleton->joint[j].parent;
+        if (!skeleton->joint[j].is_end) t.hint[j] = name_hint(skeleton->joint[j].name);
+        if (parent < 0) continue;
+        t.sibling[j] = t.child[parent];
+        t.child[parent] = j;
+        t.bone[j] = sample_distance(sample, parent, j);
+        t.reach[parent] = fmax(t.reach[parent], t.bone[j] + t.reach[j]);
+    }
+    *out = t;
+    return true;
+}
+
+bool tree_below(const Tree *t, int joint, int ancestor) {
+    while (joint > ancestor) joint = t->skeleton->joint[joint].parent;
+    return joint == ancestor;
+}
+
+/* A way from a child of the hub downwards. */
+typedef struct {
+    int count, joint[DEPTH_MAX];
+    double along[DEPTH_MAX]; /* distance from the hub along the way */
+} Way;
+
+static double name_points(const Tree *t, LimbKind kind, const int joint[3]) {
+    static const Part part[2][3] = {{PART_THIGH, PART_SHIN, PART_FOOT}, {PART_UPPER_ARM, PART_FOREARM, PART_HAND}};
+    return LONG_BONE_NAMED * (t->hint[joint[0]].weight[part[kind][0]] + t->hint[joint[1]].weight[part[kind][1]]) +
+           END_NAMED * t->hint[joint[2]].weight[part[kind][2]];
+}
+
+/* The joint before the upper arm that looks most like a clavicle; *points for its name. */
+static int find_clavicle(const Tree *t, const Way *w, int start, double *points) {
+    int best = -1;
+    double most = -1;
+    for (int i = 0; i < start; i++) {
+        double weight = t->hint[w->joint[i]].weight[PART_CLAVICLE];
+        /* Without names: the first joint from which it is still some way to the shoulder. */
+        bool bone = w->along[start] - w->along[i] > 0.3 * w->along[start];
+        if (weight + (bone ? 0.1 : 0) > most + 1e-9) most = weight + (bone ? 0.1 : 0), best = i;
+    }
+    *points = best >= 0 ? CLAVICLE_NAMED * t->hint[w->joint[best]].weight[PART_CLAVICLE] : 0;
+    return best >= 0 ? w->joint[best] : -1;
+}
+
+/* Bones that are jumped over between two places of the way. */
+static int skipped(const Way *w, int from, int to) {
+    int n = 0;
+    for (int i = from + 1; i < to; i++) n += w->along[i + 1] - w->along[i] > 0.02 * w->along[w->count - 1];
+    return n;
+}
+
+/* Scores the limb that starts at way places a, b and ends at the last one; keeps the better. */
+static void try_limb(const Tree *t, LimbKind kind, const Way *w, int a, int b, Limb *best) {
+    int c = w->count - 1, end = w->joint[c];
+    Limb limb = {.joint = {w->joint[a], w->joint[b], end}, .clavicle = -1, .found = true};
+    limb.length[0] = sample_distance(t->sample, limb.joint[0], limb.joint[1]);
+    limb.length[1] = sample_distance(t->sample, limb.joint[1], limb.joint[2]);
+    double total = w->along[c] + t->reach[end], both = limb.length[0] + limb.length[1];
+    if (both < 0.1 * total || limb.length[0] < 0.2 * limb.length[1] || limb.length[1] < 0.2 * limb.length[0]) return;
+
+    double uneven = log(limb.length[0] / limb.length[1]) - EVEN[kind];
+    limb.score = name_points(t, kind, limb.joint) + COVERAGE * both / total - UNEVEN * uneven * uneven;
+    limb.score -= SKIPPED * (skipped(w, a, b) + skipped(w, b, c));
+    limb.score -= FAR_START * fmax(0, w->along[a] / limb.length[0] - 1);
+    if (t->skeleton->joint[end].is_end) limb.score -= NO_END_JOINT;
+    if (kind == LIMB_ARM) {
+        double points;
+        limb.clavicle = find_clavicle(t, w, a, &points);
+        limb.score += points;
+    }
+    if (best->found && limb.score <= best->score + 1e-9) return;
+    int votes = 0;
+    for (int i = 0; i < w->count; i++) votes += t->hint[w->joint[i]].side;
+    limb.side = (votes > 0) - (votes < 0);
+    *best = limb;
+}
+
+static void walk_limbs(const Tree *t, LimbKind kind, Way *w, int joint, Limb *best) {
+    if (w->count >= DEPTH_MAX) return;
+    double before = w->count > 0 ? w->along[w->count - 1] : 0;
+    w->along[w->count] = before + t->bone[joint];
+    w->joint[w->count++] = joint;
+    for (int b = 1; b < w->count - 1; b++)
+        for (int a = 0; a < b && a < START_MAX; a++) try_limb(t, kind, w, a, b, best);
+    for (int c = t->child[joint]; c >= 0; c = t->sibling[c]) walk_limbs(t, kind, w, c, best);
+    w->count--;
+}
+
+/* The best limb that begins at or below `first`, a child of the hub. */
+static Limb best_limb(const Tree *t, LimbKind kind, int first) {
+    Way way = {0};
+    Limb best = {0};
+    walk_limbs(t, kind, &way, first, &best);
+    return best;
+}
+
+static double square(double x) { return x * x; }
+
+static LimbPair make_pair(const Tree *t, LimbKind kind, int hub, const Limb *a, const Limb *b) {
+    LimbPair pair = {kind, hub, {*a, *b}, a->score + b->score};
+    pair.score -= MIRROR * (square(log(a->length[0] / b->length[0])) + square(log(a->length[1] / b->length[1])));
+    double da = sample_distance(t->sample, hub, a->joint[0]), db = sample_distance(t->sample, hub, b->joint[0]);
+    double size = a->length[0] + a->length[1];
+    pair.score -= MIRROR * square((da - db) / size);
+    if (a->side * b->side < 0) pair.score += SIDES_NAMED;
+    if (a->side * b->side > 0) pair.score -= 4 * SIDES_NAMED;
+    return pair;
+}
+
+static void keep_pair(LimbPair pair, int most, LimbPair *out, int *count) {
+    int i = *count < most ? (*count)++ : most;
+    if (i == most && pair.score <= out[most - 1].score) return;
+    if (i == most) i--;
+    while (i > 0 && out[i - 1].score < pair.score) { out[i] = out[i - 1]; i--; }
+    out[i] = pair;
+}
+
+int limbs_find(const Tree *t, LimbKind kind, int most, LimbPair *out) {
+    int count = 0;
+    for (int hub = 0; hub < t->skeleton->njoints; hub++) {
+        Limb limb[CHILDREN_MAX] = {0};
+        int n = 0, children = 0;
+        for (int c = t->child[hub]; c >= 0; c = t->sibling[c]) children += !t->skeleton->joint[c].is_end;
+        if (children < 2) continue;
+        for (int c = t->child[hub]; c >= 0; c = t->sibling[c]) {
+            if (t->skeleton->joint[c].is_end) continue;
+            Limb l = best_limb(t, kind, c);
+            if (!l.found) continue;
+            int i = n < CHILDREN_MAX ? n++ : CHILDREN_MAX - 1;
+            if (n == CHILDREN_MAX && i == CHILDREN_MAX - 1 && limb[i].found && limb[i].score >= l.score) continue;
+            while (i > 0 && limb[i - 1].score < l.score) { limb[i] = limb[i - 1]; i--; }
+            limb[i] = l;
+        }
+        for (int a = 0; a < n; a++)
+            for (int b = a + 1; b < n; b++) keep_pair(make_pair(t, kind, hub, &limb[a], &limb[b]), most, out, &count);
+    }
+    return count;
+}

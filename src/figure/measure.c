@@ -1,0 +1,224 @@
+/* Sizes come from where the joints are while they move, not from OFFSETs: these may be zero,
+   and End Sites often are. Legs, torso and arms are measured; what cannot be measured well
+   (neck, head, feet) is the reference adult's, scaled. */
+#include "figure/measure.h"
+
+#include <stdlib.h>
+
+/* The reference adult, metres. */
+static const double STATURE = 1.70, ANKLE = 0.08, ABOVE_SHOULDERS = 0.315;
+static const double HIP_HEIGHT = 0.885, SHOULDER_HEIGHT = 1.385;
+static const Lengths adult = {0.176, 0.415, 0.39, 0.50, 0.34, 0.28, 0.25, 0.18};
+
+/* ---- canonical stance ---- */
+
+static void set_pair(Figure *f, Role left, Role right, Vec3 start, Vec3 end) {
+    f->start[left] = start;
+    f->end[left] = end;
+    f->start[right] = vec(-start.x, start.y, start.z);
+    f->end[right] = vec(-end.x, end.y, end.z);
+}
+
+void figure_shape(double k, const Lengths *l, Figure *f) {
+    double hip_y = k * ANKLE + l->shin + l->thigh, shoulder_y = hip_y + l->torso;
+    double t = l->torso / (SHOULDER_HEIGHT - HIP_HEIGHT); /* stretches the spine */
+    Vec3 at[6] = {{0, hip_y, 0}, {0, hip_y + 0.115 * t, -0.01 * k}, {0, hip_y + 0.285 * t, -0.01 * k},
+                  {0, shoulder_y + 0.045 * k, -0.01 * k}, {0, shoulder_y + 0.135 * k, 0.01 * k},
+                  {0, shoulder_y + ABOVE_SHOULDERS * k, 0.01 * k}};
+    for (int r = ROLE_PELVIS; r <= ROLE_HEAD; r++) f->start[r] = at[r], f->end[r] = at[r + 1];
+
+    Vec3 hip = vec(l->hips / 2, hip_y, 0), knee = vec(hip.x, k * ANKLE + l->shin, 0), ankle = vec(hip.x, k * ANKLE, 0);
+    Vec3 ball = vec(hip.x, 0.02 * k, 0.13 * k), tip = vec(hip.x, 0.02 * k, 0.20 * k);
+    set_pair(f, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH, hip, knee);
+    set_pair(f, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN, knee, ankle);
+    set_pair(f, ROLE_LEFT_FOOT, ROLE_RIGHT_FOOT, ankle, ball);
+    set_pair(f, ROLE_LEFT_TOE, ROLE_RIGHT_TOE, ball, tip);
+
+    Vec3 down = vec_scale(vec(1, -1, 0), sqrt(0.5)); /* along the left arm */
+    Vec3 shoulder = vec(l->shoulders / 2, shoulder_y, -0.01 * k), elbow = vec_mad(shoulder, down, l->upper_arm);
+    Vec3 wrist = vec_mad(elbow, down, l->forearm), finger = vec_mad(wrist, down, l->hand);
+    set_pair(f, ROLE_LEFT_CLAVICLE, ROLE_RIGHT_CLAVICLE, vec(0.02 * k, shoulder_y + 0.015 * k, 0), shoulder);
+    set_pair(f, ROLE_LEFT_UPPER_ARM, ROLE_RIGHT_UPPER_ARM, shoulder, elbow);
+    set_pair(f, ROLE_LEFT_FOREARM, ROLE_RIGHT_FOREARM, elbow, wrist);
+    set_pair(f, ROLE_LEFT_HAND, ROLE_RIGHT_HAND, wrist, finger);
+    f->height = shoulder_y + ABOVE_SHOULDERS * k;
+}
+
+Figure figure_reference(void) {
+    Figure f = {.unit = 1, .unit_name = "m", .up = 'y', .upright = mat_identity(), .rest = "reference"};
+    figure_shape(1, &adult, &f);
+    for (int r = 0; r < ROLE_COUNT; r++) {
+        f.roles.joint[r] = f.toward[r] = -1;
+        f.bind[r] = rigid_identity();
+    }
+    return f;
+}
+
+/* ---- up ---- */
+
+static Vec3 between(const Sample *s, int frame, int a, int b) {
+    return vec_mid(sample_point(s, frame, a), sample_point(s, frame, b));
+}
+
+static Vec3 axis_of(char up) {
+    double sign = up >= 'x' ? 1 : -1;
+    char axis = up >= 'x' ? up : (char)(up - 'X' + 'x');
+    return vec(axis == 'x' ? sign : 0, axis == 'y' ? sign : 0, axis == 'z' ? sign : 0);
+}
+
+/* The axis nearest to the mean of hips -> shoulders and knees -> hips. People who lie for the
+   whole take would decide wrongly, so the common axes have a head start. */
+static char find_up(const Sample *s, const Roles *roles) {
+    const int *j = roles->joint;
+    Vec3 sum = {0, 0, 0};
+    for (int f = 0; f < s->count; f++) {
+        Vec3 hips = between(s, f, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]);
+        Vec3 chest = vec_sub(between(s, f, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]), hips);
+        Vec3 legs = vec_sub(hips, between(s, f, j[ROLE_LEFT_SHIN], j[ROLE_RIGHT_SHIN]));
+        sum = vec_add(sum, vec_add(vec_unit_or(chest, vec(0, 0, 0)), vec_unit_or(legs, vec(0, 0, 0))));
+    }
+    double best = -1;
+    char up = 'y';
+    for (const char *c = "yzxYZX"; *c; c++) {
+        double score = vec_dot(axis_of(*c), sum) / s->count / 2 + (*c == 'y' ? 0.15 : *c == 'z' ? 0.05 : 0);
+        if (score > best) best = score, up = *c;
+    }
+    return up;
+}
+
+/* The turn by a right angle (or two) that takes the up axis to +y. */
+static Mat3 upright_of(char up) {
+    Vec3 axis = axis_of(up);
+    if (up == 'y') return mat_identity();
+    if (up == 'Y') return (Mat3){{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
+    Vec3 x = axis.x != 0 ? vec(0, -axis.x, 0) : vec(1, 0, 0);
+    return (Mat3){{x, axis, vec_cross(x, axis)}};
+}
+
+/* ---- lengths ---- */
+
+static int compare(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+enum { FRAMES_MAX = 256 };
+
+/* Distance between two joints at a quantile of the frames; 0 where one is missing. */
+static double distance_at(const Sample *s, double quantile, int a, int b) {
+    double d[FRAMES_MAX];
+    int n = s->count < FRAMES_MAX ? s->count : FRAMES_MAX;
+    if (a < 0 || b < 0) return 0;
+    for (int f = 0; f < n; f++) d[f] = vec_dist(sample_point(s, f, a), sample_point(s, f, b));
+    qsort(d, (size_t)n, sizeof d[0], compare);
+    return d[(int)(quantile * (n - 1))];
+}
+
+/* Mean length of the left and the right bone. */
+static double bone_length(const Sample *s, const Figure *f, Role left, Role right) {
+    return 0.5 * (distance_at(s, 0.5, f->roles.joint[left], f->toward[left]) +
+                  distance_at(s, 0.5, f->roles.joint[right], f->toward[right]));
+}
+
+/* Hips to shoulders with a straight back: a bent one is shorter, so not the median. */
+static double torso_length(const Sample *s, const Roles *r) {
+    double d[FRAMES_MAX];
+    int n = s->count < FRAMES_MAX ? s->count : FRAMES_MAX;
+    for (int f = 0; f < n; f++)
+        d[f] = vec_dist(between(s, f, r->joint[ROLE_LEFT_THIGH], r->joint[ROLE_RIGHT_THIGH]),
+                        between(s, f, r->joint[ROLE_LEFT_UPPER_ARM], r->joint[ROLE_RIGHT_UPPER_ARM]));
+    qsort(d, (size_t)n, sizeof d[0], compare);
+    return d[(int)(0.75 * (n - 1))];
+}
+
+/* The measured length where it is between low and high times the usual, else the usual. */
+static double sane(double measured, double usual, double low, double high) {
+    return measured >= low * usual && measured <= high * usual ? measured : usual;
+}
+
+/* ---- unit ---- */
+
+typedef struct { const char *name; double metres; bool children; } Unit;
+static const Unit units[] = {
+    {"cm", 0.01, true}, {"m", 1, true}, {"mm", 0.001, true}, {"inch", 0.0254, false},
+    {"5.644 cm", 0.0254 / 0.45, false}, {"dm", 0.1, false}, {"foot", 0.3048, false},
+};
+enum { NUNITS = sizeof units / sizeof units[0] };
+
+/* stature: in file units. An adult in any unit before a child in a common one. */
+static void find_unit(double stature, double file_unit, Figure *f) {
+    f->unit = STATURE / stature;
+    f->unit_name = "unknown";
+    if (file_unit > 0 && stature * file_unit > 0.5 && stature * file_unit < 2.5) {
+        f->unit = file_unit;
+        f->unit_name = "given by the file";
+        return;
+    }
+    for (int child = 0; child < 2; child++)
+        for (int i = 0; i < NUNITS; i++) {
+            double size = stature * units[i].metres;
+            if (child ? !units[i].children || size < 0.7 || size >= 1.4 : size < 1.4 || size > 2.1) continue;
+            f->unit = units[i].metres;
+            f->unit_name = units[i].name;
+            return;
+        }
+}
+
+/* ---- */
+
+/* The joint or end site that each bone points to. */
+static void find_ends(const Skeleton *skeleton, const Sample *s, Figure *f) {
+    static const Role next[ROLE_COUNT] = {
+        [ROLE_NECK] = ROLE_HEAD,
+        [ROLE_LEFT_CLAVICLE] = ROLE_LEFT_UPPER_ARM, [ROLE_RIGHT_CLAVICLE] = ROLE_RIGHT_UPPER_ARM,
+        [ROLE_LEFT_UPPER_ARM] = ROLE_LEFT_FOREARM, [ROLE_RIGHT_UPPER_ARM] = ROLE_RIGHT_FOREARM,
+        [ROLE_LEFT_FOREARM] = ROLE_LEFT_HAND, [ROLE_RIGHT_FOREARM] = ROLE_RIGHT_HAND,
+        [ROLE_LEFT_THIGH] = ROLE_LEFT_SHIN, [ROLE_RIGHT_THIGH] = ROLE_RIGHT_SHIN,
+        [ROLE_LEFT_SHIN] = ROLE_LEFT_FOOT, [ROLE_RIGHT_SHIN] = ROLE_RIGHT_FOOT,
+    };
+    static const Role tips[] = {ROLE_LEFT_FOREARM, ROLE_RIGHT_FOREARM, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN,
+                                ROLE_LEFT_HAND, ROLE_RIGHT_HAND, ROLE_LEFT_FOOT, ROLE_RIGHT_FOOT};
+    for (int r = 0; r < ROLE_COUNT; r++) f->toward[r] = next[r] ? f->roles.joint[next[r]] : -1;
+    for (size_t i = 0; i < sizeof tips / sizeof tips[0]; i++)
+        if (f->toward[tips[i]] < 0 && f->roles.joint[tips[i]] >= 0)
+            f->toward[tips[i]] = sample_tip(s, skeleton, f->roles.joint[tips[i]]);
+}
+
+bool figure_measure(const Motion *m, const FigureOptions *options, const Sample *s, Notes *notes, Figure *f, Error *e) {
+    if (options->up && (options->up < 'X' || options->up > 'z' || (options->up > 'Z' && options->up < 'x')))
+        return error_set(e, ERR_USAGE, "no such up axis '%c': x, y, z, X, Y or Z", options->up);
+    find_ends(&m->skeleton, s, f);
+    f->up = options->up ? options->up : find_up(s, &f->roles);
+    f->upright = upright_of(f->up);
+
+    Lengths l = {
+        .hips = distance_at(s, 0.5, f->roles.joint[ROLE_LEFT_THIGH], f->roles.joint[ROLE_RIGHT_THIGH]),
+        .thigh = bone_length(s, f, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH),
+        .shin = bone_length(s, f, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN),
+        .torso = torso_length(s, &f->roles),
+        .shoulders = distance_at(s, 0.5, f->roles.joint[ROLE_LEFT_UPPER_ARM], f->roles.joint[ROLE_RIGHT_UPPER_ARM]),
+        .upper_arm = bone_length(s, f, ROLE_LEFT_UPPER_ARM, ROLE_RIGHT_UPPER_ARM),
+        .forearm = bone_length(s, f, ROLE_LEFT_FOREARM, ROLE_RIGHT_FOREARM),
+        .hand = bone_length(s, f, ROLE_LEFT_HAND, ROLE_RIGHT_HAND),
+    };
+    double known = l.thigh + l.shin + l.torso;
+    if (!(known > 1e-12 && known < 1e12)) return error_set(e, ERR_INPUT, "skeleton of no size in '%s'", m->path);
+    /* Stature in units of the reference adult, then every length against its part of it. */
+    double k = known / (adult.thigh + adult.shin + adult.torso);
+    find_unit(k * STATURE, m->file_unit, f);
+    if (options->unit > 0) f->unit = options->unit, f->unit_name = "given";
+    else if (f->unit_name[0] == 'u')
+        notes_add(notes, (Place){0}, "unit unknown: %.4g units tall, taken for %.2f m", k * STATURE, STATURE);
+    if (options->scale > 0) f->unit *= options->scale;
+
+    double u = f->unit;
+    k *= u;
+    Lengths in_metres = {
+        sane(l.hips * u, adult.hips * k, 0.5, 1.7), sane(l.thigh * u, adult.thigh * k, 0.5, 1.6),
+        sane(l.shin * u, adult.shin * k, 0.5, 1.6), sane(l.torso * u, adult.torso * k, 0.5, 1.6),
+        sane(l.shoulders * u, adult.shoulders * k, 0.6, 1.6), sane(l.upper_arm * u, adult.upper_arm * k, 0.5, 1.6),
+        sane(l.forearm * u, adult.forearm * k, 0.5, 1.6), sane(l.hand * u, adult.hand * k, 0.75, 1.25),
+    };
+    figure_shape(k, &in_metres, f);
+    return true;
+}

@@ -1,0 +1,240 @@
+/* A joint's name as a bag of words.
+
+   Every naming family writes the same few words in its own way: LeftUpLeg, lThigh, thigh_l,
+   DEF-thigh.L.001, "Bip01 L Thigh", lfemur. So a name is cut where it shows a joint (signs, a
+   capital, a digit), what is left is cut into words of one small vocabulary, and phrases of
+   one or two words vote for bones. A word may vote for several bones, because families
+   disagree: LeftShoulder is the clavicle for one and the upper arm for another. Who is right
+   is decided where the whole limb is in view (limbs.c), not here. */
+#include "figure/names.h"
+
+#include <ctype.h>
+#include <stdbool.h>
+#include <string.h>
+
+enum { WORDS_MAX = 16, TOKEN_MAX = 40 };
+
+/* Words that end the talk: the joint is a helper, a finger, a face. */
+static const char *const other[] = {
+    "ball", "blade", "bone", "joint", "base", "root", "center", "centre", "mid", "twist", "roll", "bend", "share",
+    "def", "org", "mch", "fk", "jnt", "jt", "bip", "rig", "character", "skeleton", "main", "body", "in", "up", "upper",
+    "low", "lower", "fore", "front", "l", "r", "left", "right", "links", "rechts",
+};
+static const char *const strangers[] = {
+    "end", "nub", "tip", "site", "ik", "pole", "target", "ctrl", "control", "helper", "muscle", "effector", "eff",
+    "dummy", "eye", "eyes", "eyelid", "ear", "jaw", "hair", "breast", "bust", "thumb", "index", "middle", "ring",
+    "pinky", "pinkie", "finger", "fingers", "metacarpal", "carpal", "heel", "tongue", "brow", "lip", "lips", "cheek",
+    "nose", "mouth", "teeth", "weapon", "prop", "skirt", "cloth", "tail", "wing", "buttock", "butt", "glute", "pad",
+    "attach", "socket", "camera", "nail", "pec", "rib", "sole",
+};
+
+/* A phrase: one word, or two that follow each other. where: 's' says it only of a bone that
+   has a side, 'c' only of a central one, 0 of both. */
+typedef struct {
+    const char *first, *second;
+    char where;
+    Part part;
+    double weight;
+} Phrase;
+
+static const Phrase phrases[] = {
+    {"hip", "joint", 's', PART_THIGH, 0.2},
+    {"hip", "center", 'c', PART_PELVIS, 1},
+    {"lower", "body", 'c', PART_PELVIS, 0.8},
+    {"spine", "base", 'c', PART_PELVIS, 0.6},
+    {"spine", "shoulder", 'c', PART_CHEST, 0.8},
+    {"lower", "back", 'c', PART_SPINE, 1},
+    {"upper", "back", 'c', PART_CHEST, 0.5},
+    {"upper", "body", 'c', PART_SPINE, 0.6},
+    {"upper", "chest", 'c', PART_CHEST, 1},
+    {"lower", "neck", 'c', PART_NECK, 1},
+    {"upper", "neck", 'c', PART_NECK, 0.8},
+    {"shoulder", "blade", 's', PART_CLAVICLE, 0.7},
+    {"up", "arm", 's', PART_UPPER_ARM, 1},
+    {"upper", "arm", 's', PART_UPPER_ARM, 1},
+    {"fore", "arm", 's', PART_FOREARM, 1},
+    {"lower", "arm", 's', PART_FOREARM, 1},
+    {"low", "arm", 's', PART_FOREARM, 1},
+    {"up", "leg", 's', PART_THIGH, 1},
+    {"upper", "leg", 's', PART_THIGH, 1},
+    {"lower", "leg", 's', PART_SHIN, 1},
+    {"low", "leg", 's', PART_SHIN, 1},
+    {"toe", "base", 's', PART_TOE, 1},
+    {"fore", "foot", 's', PART_TOE, 0.7},
+    {"pelvis", NULL, 'c', PART_PELVIS, 1},
+    {"hips", NULL, 'c', PART_PELVIS, 1},
+    {"hip", NULL, 'c', PART_PELVIS, 0.9},
+    {"root", NULL, 'c', PART_PELVIS, 0.3},
+    {"spine", NULL, 'c', PART_SPINE, 1},
+    {"back", NULL, 'c', PART_SPINE, 0.8},
+    {"abdomen", NULL, 'c', PART_SPINE, 1},
+    {"waist", NULL, 'c', PART_SPINE, 0.9},
+    {"torso", NULL, 'c', PART_CHEST, 0.6},
+    {"chest", NULL, 'c', PART_CHEST, 1},
+    {"thorax", NULL, 'c', PART_CHEST, 1},
+    {"ribcage", NULL, 'c', PART_CHEST, 0.9},
+    {"neck", NULL, 'c', PART_NECK, 1},
+    {"head", NULL, 'c', PART_HEAD, 1},
+    {"skull", NULL, 'c', PART_HEAD, 1},
+    {"clavicle", NULL, 's', PART_CLAVICLE, 1},
+    {"clav", NULL, 's', PART_CLAVICLE, 1},
+    {"collar", NULL, 's', PART_CLAVICLE, 1},
+    {"scapula", NULL, 's', PART_CLAVICLE, 0.7},
+    {"shoulder", NULL, 's', PART_CLAVICLE, 0.8},
+    {"shoulder", NULL, 's', PART_UPPER_ARM, 0.7},
+    {"shldr", NULL, 's', PART_CLAVICLE, 0.5},
+    {"shldr", NULL, 's', PART_UPPER_ARM, 0.9},
+    {"acromial", NULL, 's', PART_UPPER_ARM, 0.9},
+    {"arm", NULL, 's', PART_UPPER_ARM, 0.9},
+    {"uparm", NULL, 's', PART_UPPER_ARM, 1},
+    {"humerus", NULL, 's', PART_UPPER_ARM, 1},
+    {"bicep", NULL, 's', PART_UPPER_ARM, 0.7},
+    {"elbow", NULL, 's', PART_FOREARM, 0.95},
+    {"ulna", NULL, 's', PART_FOREARM, 0.9},
+    {"radius", NULL, 's', PART_FOREARM, 0.85},
+    {"wrist", NULL, 's', PART_HAND, 0.95},
+    {"hand", NULL, 's', PART_HAND, 0.9},
+    {"palm", NULL, 's', PART_HAND, 0.7},
+    {"thigh", NULL, 's', PART_THIGH, 1},
+    {"femur", NULL, 's', PART_THIGH, 1},
+    {"hip", NULL, 's', PART_THIGH, 0.8},
+    {"leg", NULL, 's', PART_THIGH, 0.5},
+    {"leg", NULL, 's', PART_SHIN, 0.8},
+    {"shin", NULL, 's', PART_SHIN, 1},
+    {"calf", NULL, 's', PART_SHIN, 1},
+    {"tibia", NULL, 's', PART_SHIN, 1},
+    {"knee", NULL, 's', PART_SHIN, 0.95},
+    {"ankle", NULL, 's', PART_FOOT, 0.95},
+    {"foot", NULL, 's', PART_FOOT, 0.9},
+    {"foot", NULL, 's', PART_TOE, 0.3},
+    {"talus", NULL, 's', PART_FOOT, 0.9},
+    {"calcn", NULL, 's', PART_FOOT, 0.6},
+    {"calcaneus", NULL, 's', PART_FOOT, 0.6},
+    {"subtalar", NULL, 's', PART_FOOT, 0.4},
+    {"toe", NULL, 's', PART_TOE, 1},
+    {"toes", NULL, 's', PART_TOE, 1},
+    {"ball", NULL, 's', PART_TOE, 0.9},
+    {"mtp", NULL, 's', PART_TOE, 0.9},
+    {"metatarsal", NULL, 's', PART_TOE, 0.6},
+    {"metatarsals", NULL, 's', PART_TOE, 0.6},
+};
+
+enum { NPHRASES = sizeof phrases / sizeof phrases[0] };
+
+/* Entry i of the vocabulary; NULL behind the last. */
+static const char *vocabulary(int i) {
+    const int nother = sizeof other / sizeof other[0], nstrangers = sizeof strangers / sizeof strangers[0];
+    if (i < NPHRASES) return phrases[i].first;
+    i -= NPHRASES;
+    if (i < nother) return other[i];
+    i -= nother;
+    return i < nstrangers ? strangers[i] : NULL;
+}
+
+typedef struct {
+    int count;
+    const char *word[WORDS_MAX];
+    int side; /* from characters that are no Latin words */
+} Words;
+
+/* Cuts a lower-case token into words of the vocabulary, longest first, all of it or nothing.
+   A lone l or r may only stand at the token's start or end. */
+static bool segment(const char *token, size_t length, bool at_start, Words *out) {
+    if (length == 0) return true;
+    for (size_t n = length; n > 0; n--) {
+        bool at_end = n == length;
+        if (n == 1 && !(at_start || at_end)) continue;
+        for (int i = 0; vocabulary(i); i++) {
+            const char *word = vocabulary(i);
+            if (strlen(word) != n || memcmp(word, token, n) != 0) continue;
+            if (out->count >= WORDS_MAX) return false;
+            int count = out->count;
+            out->word[out->count++] = word;
+            if (segment(token + n, length - n, false, out)) return true;
+            out->count = count;
+            break;
+        }
+    }
+    return false;
+}
+
+static bool is_upper(char c) { return c >= 'A' && c <= 'Z'; }
+static bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
+
+/* Does a new token begin at s[i]? aB and ABc, where A ends one and B begins the next. */
+static bool boundary(const char *s, size_t i) {
+    if (!is_upper(s[i])) return false;
+    return is_lower(s[i - 1]) || (is_upper(s[i - 1]) && is_lower(s[i + 1]));
+}
+
+static Words split(const char *name) {
+    Words words = {0};
+    /* Japanese rigs: the characters for left and right stand in front of the bone. */
+    if (strstr(name, "\xe5\xb7\xa6")) words.side = 1;
+    if (strstr(name, "\xe5\x8f\xb3")) words.side = -1;
+    char token[TOKEN_MAX];
+    for (size_t i = 0; name[i];) {
+        size_t n = 0;
+        if (!is_upper(name[i]) && !is_lower(name[i])) { i++; continue; }
+        do {
+            if (n < TOKEN_MAX) token[n] = (char)tolower((unsigned char)name[i]);
+            n++;
+            i++;
+        } while ((is_upper(name[i]) || is_lower(name[i])) && !boundary(name, i));
+        if (n <= TOKEN_MAX) (void)segment(token, n, true, &words);
+    }
+    return words;
+}
+
+static bool is(const char *word, const char *other_word) { return strcmp(word, other_word) == 0; }
+
+/* +1 left, -1 right; the last word that says so (a prefix letter may mean something else). */
+static int side_of(const Words *w) {
+    int side = w->side;
+    for (int i = 0; i < w->count; i++) {
+        if (is(w->word[i], "left") || is(w->word[i], "l") || is(w->word[i], "links")) side = 1;
+        if (is(w->word[i], "right") || is(w->word[i], "r") || is(w->word[i], "rechts")) side = -1;
+    }
+    return side;
+}
+
+static bool is_side(const char *word) {
+    return is(word, "left") || is(word, "right") || is(word, "l") || is(word, "r");
+}
+
+/* Factor for words that say that this is not the bone itself. */
+static double doubt(const Words *w) {
+    double factor = 1;
+    for (int i = 0; i < w->count; i++) {
+        if (is(w->word[i], "twist") || is(w->word[i], "roll") || is(w->word[i], "share")) factor *= 0.6;
+        for (size_t k = 0; k < sizeof strangers / sizeof strangers[0]; k++)
+            if (is(w->word[i], strangers[k])) factor *= 0.05;
+    }
+    return factor;
+}
+
+NameHint name_hint(const char *name) {
+    Words w = split(name);
+    NameHint hint = {.side = side_of(&w)};
+    double factor = doubt(&w);
+    bool used[WORDS_MAX] = {false};
+    for (int pass = 2; pass >= 1; pass--) {
+        bool taken[WORDS_MAX] = {false};
+        for (int p = 0; p < NPHRASES; p++) {
+            const Phrase *ph = &phrases[p];
+            if ((ph->second != NULL) != (pass == 2)) continue;
+            if ((ph->where == 's' && hint.side == 0) || (ph->where == 'c' && hint.side != 0)) continue;
+            for (int i = 0; i < w.count; i++) {
+                int j = i + 1; /* UpperLeftArm: a side may stand between the two */
+                if (pass == 2 && j + 1 < w.count && is_side(w.word[j])) j++;
+                if (used[i] || !is(w.word[i], ph->first)) continue;
+                if (pass == 2 && (j >= w.count || !is(w.word[j], ph->second))) continue;
+                taken[i] = true;
+                if (pass == 2) taken[j] = true;
+                if (ph->weight * factor > hint.weight[ph->part]) hint.weight[ph->part] = ph->weight * factor;
+            }
+        }
+        for (int i = 0; i < WORDS_MAX; i++) used[i] |= taken[i];
+    }
+    return hint;
+}

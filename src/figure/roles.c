@@ -1,0 +1,149 @@
+/* Roles: found in the skeleton, then corrected by the user's file, then checked. */
+#include "figure/roles.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "figure/human.h"
+
+enum { SAMPLE_FRAMES = 12, FILE_LIMIT = 1 << 20, NAME_MAX_LENGTH = 512 };
+
+static const char *const names[ROLE_COUNT] = {
+    "pelvis", "spine", "chest", "neck", "head",
+    "left_clavicle", "left_upper_arm", "left_forearm", "left_hand",
+    "right_clavicle", "right_upper_arm", "right_forearm", "right_hand",
+    "left_thigh", "left_shin", "left_foot", "left_toe",
+    "right_thigh", "right_shin", "right_foot", "right_toe",
+};
+
+static const Role required[] = {
+    ROLE_PELVIS, ROLE_CHEST, ROLE_LEFT_UPPER_ARM, ROLE_LEFT_FOREARM, ROLE_RIGHT_UPPER_ARM, ROLE_RIGHT_FOREARM,
+    ROLE_LEFT_THIGH, ROLE_LEFT_SHIN, ROLE_RIGHT_THIGH, ROLE_RIGHT_SHIN,
+};
+
+const char *role_name(Role role) { return (unsigned)role < ROLE_COUNT ? names[role] : "none"; }
+
+Role role_find(const char *name, int length) {
+    for (int r = 0; r < ROLE_COUNT; r++)
+        if ((int)strlen(names[r]) == length && memcmp(names[r], name, (size_t)length) == 0) return (Role)r;
+    return ROLE_COUNT;
+}
+
+/* ---- the file ---- */
+
+static bool blank(char c) { return c == ' ' || c == '\t'; }
+
+/* Copies text without the blanks round it. False where it does not fit. */
+static bool copy_trimmed(const char *from, const char *to, char *out, size_t n) {
+    while (from < to && blank(*from)) from++;
+    while (to > from && blank(to[-1])) to--;
+    size_t length = (size_t)(to - from);
+    if (length >= n) return false;
+    memcpy(out, from, length);
+    out[length] = '\0';
+    return true;
+}
+
+static bool unknown_role(Place place, const char *role, Error *e) {
+    int nearest = 0;
+    for (int r = 1; r < ROLE_COUNT; r++)
+        if (text_distance(role, names[r]) < text_distance(role, names[nearest])) nearest = r;
+    if (text_distance(role, names[nearest]) > 4) return error_at(e, ERR_INPUT, place, "unknown role '%s'", role);
+    return error_at(e, ERR_INPUT, place, "unknown role '%s'; did you mean '%s'?", role, names[nearest]);
+}
+
+static bool unknown_joint(const Skeleton *s, Place place, const char *joint, Error *e) {
+    const char *nearest = NULL;
+    int distance = 5;
+    for (int j = 0; j < s->njoints; j++) {
+        int d = text_distance(joint, s->joint[j].name);
+        if (d < distance) distance = d, nearest = s->joint[j].name;
+    }
+    if (!nearest) return error_at(e, ERR_INPUT, place, "no joint '%s' in the skeleton", joint);
+    return error_at(e, ERR_INPUT, place, "no joint '%s' in the skeleton; did you mean '%s'?", joint, nearest);
+}
+
+/* One line `role = joint`. */
+MUST_CHECK static bool read_line(const Skeleton *s, const Line *line, bool *given, Roles *out, Error *e) {
+    const char *start = line->word[0], *end = line->word[line->count - 1] + line->length[line->count - 1];
+    const char *equals = memchr(start, '=', (size_t)(end - start));
+    char role_text[64], joint_text[NAME_MAX_LENGTH];
+    Place at_role = text_place(&line->at, start);
+    if (!equals) return error_at(e, ERR_INPUT, at_role, "expected 'role = joint'");
+    if (!copy_trimmed(start, equals, role_text, sizeof role_text))
+        return error_at(e, ERR_INPUT, at_role, "role name too long");
+    Role role = role_find(role_text, (int)strlen(role_text));
+    if (role == ROLE_COUNT) return unknown_role(at_role, role_text, e);
+    if (given[role]) return error_at(e, ERR_INPUT, at_role, "role '%s' given twice", role_text);
+    given[role] = true;
+
+    const char *value = equals + 1;
+    while (value < end && blank(*value)) value++;
+    Place at_joint = text_place(&line->at, value);
+    if (value == end) return error_at(e, ERR_INPUT, at_joint, "no joint for role '%s'", role_text);
+    if (!copy_trimmed(value, end, joint_text, sizeof joint_text))
+        return error_at(e, ERR_INPUT, at_joint, "joint name too long");
+    int joint = skeleton_find(s, joint_text);
+    if (joint < 0 && strcmp(joint_text, "none") == 0) { out->joint[role] = -1; return true; }
+    if (joint < 0) return unknown_joint(s, at_joint, joint_text, e);
+    if (s->joint[joint].is_end) return error_at(e, ERR_INPUT, at_joint, "'%s' is an end site, not a joint", joint_text);
+    out->joint[role] = joint;
+    return true;
+}
+
+MUST_CHECK static bool read_file(const Skeleton *s, const char *path, Arena *scratch, bool *given, Roles *out, Error *e) {
+    Text text;
+    Line line;
+    if (!text_read(path, FILE_LIMIT, scratch, &text, e)) return false;
+    Cursor c = text_start(&text);
+    while (text_line(&c, &line, e))
+        if (!read_line(s, &line, given, out, e)) return false;
+    return e->kind == ERR_NONE;
+}
+
+/* ---- */
+
+static bool check_required(const Motion *m, const Roles *roles, Error *e) {
+    char list[256] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < sizeof required / sizeof required[0]; i++) {
+        if (roles->joint[required[i]] >= 0) continue;
+        int n = snprintf(list + used, sizeof list - used, "%s%s", used ? ", " : "", names[required[i]]);
+        if (n > 0 && used + (size_t)n < sizeof list) used += (size_t)n;
+    }
+    if (used == 0) return true;
+    return error_set(e, ERR_INPUT, "no human skeleton in '%s': missing roles: %s", m->path ? m->path : "motion", list);
+}
+
+/* A role file can ask for one joint twice; the search cannot. */
+static bool check_distinct(const Skeleton *s, const Roles *roles, Error *e) {
+    for (int a = 0; a < ROLE_COUNT; a++)
+        for (int b = a + 1; b < ROLE_COUNT; b++)
+            if (roles->joint[a] >= 0 && roles->joint[a] == roles->joint[b])
+                return error_set(e, ERR_INPUT, "joint '%s' plays two roles: %s and %s", s->joint[roles->joint[a]].name,
+                                 names[a], names[b]);
+    return true;
+}
+
+/* What the file gives away, the search may not keep for another role. */
+static void yield_to_file(const bool *given, Roles *roles) {
+    for (int a = 0; a < ROLE_COUNT; a++)
+        for (int b = 0; b < ROLE_COUNT; b++)
+            if (given[a] && !given[b] && roles->joint[a] >= 0 && roles->joint[a] == roles->joint[b]) roles->joint[b] = -1;
+}
+
+bool roles_read(const Motion *m, const char *roles_file, Arena *scratch, Notes *notes, Roles *out, Error *e) {
+    Sample sample;
+    Tree tree;
+    if (!sample_read(m, SAMPLE_FRAMES, scratch, &sample, e)) return false;
+    if (!tree_build(&m->skeleton, &sample, scratch, &tree, e)) return false;
+    human_find(&tree, notes, out);
+    if (roles_file) {
+        bool given[ROLE_COUNT] = {false};
+        if (!read_file(&m->skeleton, roles_file, scratch, given, out, e)) return false;
+        yield_to_file(given, out);
+        if (!check_distinct(&m->skeleton, out, e)) return false;
+    }
+    return check_required(m, out, e);
+}

@@ -1,0 +1,54 @@
+/* Evenly spread frames, kept as world transforms. */
+#include "figure/sample.h"
+
+enum { FIRST_FRAME_HAS_NO_VOTE_FROM = 8 }; /* frames in the motion */
+static const long TRANSFORMS_MAX = 200000; /* about 20 MB, for absurd joint counts */
+
+MUST_CHECK static bool read_rows(const Motion *m, MotionReader *reader, int count, const int *frame, double *row,
+                                 Rigid *world, Error *e) {
+    for (int i = 0; i < count; i++) {
+        if (!motion_row(reader, frame[i], row, e)) return false;
+        skeleton_pose(&m->skeleton, row, world + (long)i * m->skeleton.njoints);
+    }
+    return true;
+}
+
+bool sample_read(const Motion *m, int wanted, Arena *arena, Sample *out, Error *e) {
+    int first = m->nframes >= FIRST_FRAME_HAS_NO_VOTE_FROM ? 1 : 0, n = m->nframes - first;
+    int count = wanted < n ? wanted : n;
+    long most = TRANSFORMS_MAX / (m->skeleton.njoints + 1) + 1;
+    if (count > most) count = (int)most;
+
+    int *frame = ARENA_NEW(arena, int, count, e);
+    double *row = frame ? ARENA_NEW(arena, double, m->skeleton.nchannels, e) : NULL;
+    Rigid *world = row ? ARENA_NEW(arena, Rigid, (size_t)count * (size_t)m->skeleton.njoints, e) : NULL;
+    if (!world) return false;
+    for (int i = 0; i < count; i++)
+        frame[i] = first + (count > 1 ? (int)((long long)i * (n - 1) / (count - 1)) : n / 2);
+
+    MotionReader *reader;
+    if (!motion_reader_open(m, arena, &reader, e)) return false;
+    bool good = read_rows(m, reader, count, frame, row, world, e);
+    motion_reader_close(reader);
+    *out = (Sample){count, m->skeleton.njoints, frame, world};
+    return good;
+}
+
+double sample_distance(const Sample *s, int a, int b) {
+    double sum = 0;
+    for (int i = 0; i < s->count; i++) sum += vec_dist(sample_point(s, i, a), sample_point(s, i, b));
+    return s->count ? sum / s->count : 0;
+}
+
+int sample_tip(const Sample *s, const Skeleton *skeleton, int joint) {
+    int tip = -1, first = s->count > 0 ? 0 : -1;
+    double farthest = 0;
+    for (int j = joint + 1; first == 0 && j < skeleton->njoints; j++) {
+        int k = j;
+        while (k > joint) k = skeleton->joint[k].parent;
+        if (k != joint) continue;
+        double d = vec_dist(sample_point(s, 0, joint), sample_point(s, 0, j));
+        if (d > farthest * (1 + 1e-9)) farthest = d, tip = j;
+    }
+    return tip;
+}
