@@ -66,15 +66,17 @@ static Vec3 axis_of(char up) {
     return vec(axis == 'x' ? sign : 0, axis == 'y' ? sign : 0, axis == 'z' ? sign : 0);
 }
 
-/* The axis nearest to the mean of hips -> shoulders and knees -> hips. People who lie for the
+/* The axis nearest to the mean of hips -> shoulders and ankles -> hips. People who lie for the
    whole take would decide wrongly, so the common axes have a head start. */
-static char find_up(const Sample *s, const Roles *roles) {
-    const int *j = roles->joint;
+static char find_up(const Sample *s, const Figure *figure) {
+    const int *j = figure->roles.joint;
+    int left = figure->toward[ROLE_LEFT_SHIN], right = figure->toward[ROLE_RIGHT_SHIN];
+    if (left < 0 || right < 0) left = j[ROLE_LEFT_SHIN], right = j[ROLE_RIGHT_SHIN];
     Vec3 sum = {0, 0, 0};
     for (int f = 0; f < s->count; f++) {
         Vec3 hips = between(s, f, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]);
         Vec3 chest = vec_sub(between(s, f, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]), hips);
-        Vec3 legs = vec_sub(hips, between(s, f, j[ROLE_LEFT_SHIN], j[ROLE_RIGHT_SHIN]));
+        Vec3 legs = vec_sub(hips, between(s, f, left, right));
         sum = vec_add(sum, vec_add(vec_unit_or(chest, vec(0, 0, 0)), vec_unit_or(legs, vec(0, 0, 0))));
     }
     double best = -1;
@@ -188,7 +190,7 @@ bool figure_measure(const Motion *m, const FigureOptions *options, const Sample 
     if (options->up && (options->up < 'X' || options->up > 'z' || (options->up > 'Z' && options->up < 'x')))
         return error_set(e, ERR_USAGE, "no such up axis '%c': x, y, z, X, Y or Z", options->up);
     find_ends(&m->skeleton, s, f);
-    f->up = options->up ? options->up : find_up(s, &f->roles);
+    f->up = options->up ? options->up : find_up(s, f);
     f->upright = upright_of(f->up);
 
     Lengths l = {
