@@ -9,8 +9,23 @@
    every second goes and the stride doubles, so the index of any file is of one size. */
 enum { MARKS_MAX = 1024 };
 
-/* What an AMC file asks of its reader: the skeleton's names and where the values go. */
-typedef struct Acclaim Acclaim;
+/* Where the values of a bone's line in an AMC file go. An ASF lists degrees of freedom in
+   any order, seven at most: translation, rotation and length. */
+enum { DOF_MAX = 7, DOF_LENGTH = CHANNEL_RZ + 1 };
+typedef struct {
+    const char *name;
+    int joint, ndof;
+    int dof[DOF_MAX];  /* a ChannelKind or DOF_LENGTH, in the order of the values */
+    int slot[DOF_MAX]; /* channel of the joint that takes it, -1: left out */
+} Bone;
+
+/* What is needed to read AMC frames: the bones of the ASF sorted by name. */
+typedef struct {
+    const char *asf;
+    Bone *bone;
+    int nbones;
+    double degrees; /* per unit of angle in the AMC file */
+} Acclaim;
 
 struct MotionSource {
     int fd;
@@ -40,9 +55,15 @@ typedef struct {
 MUST_CHECK bool bvh_open(Opening *o, Error *e);
 MUST_CHECK bool bvh_row(Stream *s, const MotionSource *source, double *row, Error *e);
 
-/* acclaim.c: the ASF skeleton at `asf`, then all frames of the AMC file. */
+/* acclaim.c: the same for AMC files. */
 MUST_CHECK bool acclaim_open(Opening *o, Error *e);
 MUST_CHECK bool acclaim_row(Stream *s, const MotionSource *source, double *row, Error *e);
+
+/* asf.c: finds the skeleton of an AMC file, reads it and hands it to source_skeleton. */
+MUST_CHECK bool asf_find(Opening *o, const char **path, Error *e);
+MUST_CHECK bool asf_read(Opening *o, const char *path, Acclaim *out, Error *e);
+/* Index in a->bone, or -1. */
+int asf_bone(const Acclaim *a, Word name);
 
 /* motion.c: opens a regular file, or spools anything else. ERR_INPUT for a directory, a
    missing file, an empty one or one with NUL bytes at its start. */

@@ -1,0 +1,399 @@
+/* ASF, the skeleton of an Acclaim pair. It describes bones, where BVH describes joints: each
+   has a direction and a length in the rest pose and begins where its parent ends. So a bone
+   becomes the joint at its beginning, the OFFSET of a joint is its parent's bone, and a leaf
+   gets an end site. Its rotations are meant in a frame of its own, turned by `axis`:
+   R = C D C^-1. An order XYZ says that x is turned first: as a product of matrices Rz Ry Rx. */
+#include <dirent.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "motion/source.h"
+
+enum { FIRST_BONES = 64, NAME_MAX_BYTES = 1000, FRAMES_OF_REFERENCE = 3 };
+
+/* A bone as the file has it, and its place in the tree. */
+typedef struct {
+    Bone bone;
+    Vec3 direction, angles;
+    double length;
+    char order[FRAMES_OF_REFERENCE + 1];
+    int parent, first_child, last_child, next; /* -1: none */
+    int joint;                                 /* its index in the skeleton */
+} Part;
+
+typedef struct {
+    Opening *o;
+    Stream in;
+    Acclaim *acclaim;
+    Part *part; /* part[0] is the root */
+    int nparts, capacity;
+    double degrees; /* per unit of angle in this file */
+    bool linked;    /* the hierarchy has begun */
+} Asf;
+
+static bool refuse_word(Asf *a, Word w, const char *wanted, Error *e) {
+    if (!w.length) return stream_error(&a->in, e, "the file ends where %s is expected", wanted);
+    return stream_error(&a->in, e, "expected %s, found '%.*s'", wanted, w.length < 40 ? w.length : 40, w.start);
+}
+
+static bool read_vector(Asf *a, const char *what, Vec3 *out, Error *e) {
+    double v[3];
+    for (int i = 0; i < 3; i++) {
+        NumberResult r = stream_number(&a->in, &v[i]);
+        if (r > NUMBER_GLUED) return stream_refuse(&a->in, r, what, e);
+    }
+    *out = vec(v[0], v[1], v[2]);
+    return true;
+}
+
+static bool read_scalar(Asf *a, const char *what, double *out, Error *e) {
+    NumberResult r = stream_number(&a->in, out);
+    return r <= NUMBER_GLUED || stream_refuse(&a->in, r, what, e);
+}
+
+/* XYZ in any order. */
+static bool read_order(Asf *a, char order[FRAMES_OF_REFERENCE + 1], Error *e) {
+    Word w = stream_peek(&a->in);
+    bool good = w.length == 3;
+    for (int i = 0; i < 3 && good; i++) {
+        order[i] = (char)(w.start[i] & ~32);
+        good = order[i] >= 'X' && order[i] <= 'Z' && !memchr(order, order[i], (size_t)i);
+    }
+    if (!good) return refuse_word(a, w, "an order such as XYZ", e);
+    stream_word(&a->in);
+    return true;
+}
+
+/* The rest of the line: tx ty tz rx ry rz or l, each at most once. */
+static bool read_dof(Asf *a, Bone *b, Error *e) {
+    static const char *const names[] = {"tx", "ty", "tz", "rx", "ry", "rz", "l"};
+    while (stream_blanks(&a->in) && *a->in.at != '#') {
+        Word w = stream_peek(&a->in);
+        int kind = 0;
+        while (kind < DOF_MAX && !word_is(w, names[kind])) kind++;
+        if (kind == DOF_MAX) return refuse_word(a, w, "tx ty tz rx ry rz or l", e);
+        for (int i = 0; i < b->ndof; i++)
+            if (b->dof[i] == kind) return refuse_word(a, w, "another degree of freedom", e);
+        b->dof[b->ndof++] = kind;
+        stream_word(&a->in);
+    }
+    return true;
+}
+
+static Part *add_part(Asf *a, Error *e) {
+    if (a->nparts > a->o->max_joints) {
+        stream_error(&a->in, e, "more than %d bones", a->o->max_joints);
+        return NULL;
+    }
+    if (a->nparts == a->capacity) {
+        int capacity = a->capacity ? 2 * a->capacity : FIRST_BONES;
+        Part *part = ARENA_NEW(a->o->scratch, Part, capacity, e);
+        if (!part) return NULL;
+        if (a->nparts) memcpy(part, a->part, (size_t)a->nparts * sizeof *part);
+        a->part = part;
+        a->capacity = capacity;
+    }
+    Part *p = &a->part[a->nparts++];
+    *p = (Part){.order = "XYZ", .parent = -1, .first_child = -1, .last_child = -1, .next = -1};
+    return p;
+}
+
+static bool read_units(Asf *a, Error *e) {
+    Word w = stream_word(&a->in);
+    double value = 0;
+    if (word_is(w, "length")) {
+        if (!read_scalar(a, "the unit of length", &value, e)) return false;
+        /* 0.45 means: one unit is 1/0.45 inch. 1 is what exporters write that do not know. */
+        if (value > 0 && value != 1) a->o->motion->file_unit = 0.0254 / value;
+    } else if (word_is(w, "angle")) {
+        w = stream_peek(&a->in);
+        if (word_is(w, "rad")) a->degrees = 180 / PI;
+        else if (!word_is(w, "deg")) return refuse_word(a, w, "deg or rad", e);
+    }
+    stream_skip_line(&a->in);
+    return true;
+}
+
+static bool read_root(Asf *a, Error *e) {
+    Part *p = &a->part[0];
+    Word w = stream_word(&a->in);
+    if (word_is(w, "order")) return read_dof(a, &p->bone, e);
+    if (word_is(w, "axis")) return read_order(a, p->order, e);
+    if (word_is(w, "position")) return read_vector(a, "the root's position", &p->direction, e);
+    if (word_is(w, "orientation")) return read_vector(a, "the root's orientation", &p->angles, e);
+    stream_skip_line(&a->in);
+    return true;
+}
+
+static bool take_name(Asf *a, Bone *b, Error *e) {
+    Word w = stream_peek(&a->in);
+    if (!w.length || w.first) return refuse_word(a, w, "a bone's name", e);
+    if (w.length > NAME_MAX_BYTES) return stream_error(&a->in, e, "bone name of more than %d bytes", NAME_MAX_BYTES);
+    b->name = arena_text(a->o->arena, w.start, (size_t)w.length, e);
+    stream_word(&a->in);
+    return b->name != NULL;
+}
+
+/* A line within bonedata: of the last bone, or `begin` for another. */
+static bool read_bone(Asf *a, Error *e) {
+    Word w = stream_peek(&a->in);
+    if (word_is(w, "begin")) {
+        stream_word(&a->in);
+        return add_part(a, e) != NULL;
+    }
+    if (a->nparts < 2) return refuse_word(a, w, "'begin'", e);
+    Part *p = &a->part[a->nparts - 1];
+    if (word_is(w, "end") && !p->bone.name) return stream_error(&a->in, e, "a bone without a name");
+    w = stream_word(&a->in);
+    if (word_is(w, "name")) return take_name(a, &p->bone, e);
+    if (word_is(w, "direction")) return read_vector(a, "the bone's direction", &p->direction, e);
+    if (word_is(w, "length")) return read_scalar(a, "the bone's length", &p->length, e);
+    if (word_is(w, "axis")) return read_vector(a, "the bone's axis", &p->angles, e) && read_order(a, p->order, e);
+    if (word_is(w, "dof")) return read_dof(a, &p->bone, e);
+    stream_skip_line(&a->in); /* id, limits and their further lines, masses, end */
+    return true;
+}
+
+static int by_name(const void *x, const void *y) {
+    const Bone *a = x, *b = y;
+    return strcmp(a->name, b->name);
+}
+
+int asf_bone(const Acclaim *a, Word name) {
+    int low = 0, high = a->nbones;
+    while (low < high) {
+        int mid = (low + high) / 2, order = strncmp(a->bone[mid].name, name.start, (size_t)name.length);
+        if (order == 0 && a->bone[mid].name[name.length]) order = 1;
+        if (order == 0) return mid;
+        if (order < 0) low = mid + 1;
+        else high = mid;
+    }
+    return -1;
+}
+
+/* The bones are known: sorts them by name. Until the tree is built, Bone.joint is the part. */
+static bool sort_bones(Asf *a, Error *e) {
+    Acclaim *k = a->acclaim;
+    if (!(k->bone = ARENA_NEW(a->o->arena, Bone, a->nparts, e))) return false;
+    for (k->nbones = 0; k->nbones < a->nparts; k->nbones++) {
+        Bone *b = &a->part[k->nbones].bone;
+        if (!b->name) return stream_error(&a->in, e, "a bone without a name");
+        b->joint = k->nbones;
+        k->bone[k->nbones] = *b;
+    }
+    qsort(k->bone, (size_t)k->nbones, sizeof *k->bone, by_name);
+    for (int i = 1; i < k->nbones; i++)
+        if (by_name(&k->bone[i - 1], &k->bone[i]) == 0)
+            return stream_error(&a->in, e, "two bones are named '%.60s'", k->bone[i].name);
+    a->linked = true;
+    return true;
+}
+
+static bool find_part(Asf *a, int *out, Error *e) {
+    Word w = stream_peek(&a->in);
+    int i = asf_bone(a->acclaim, w);
+    if (i < 0) return refuse_word(a, w, "the name of a bone", e);
+    *out = a->acclaim->bone[i].joint;
+    stream_word(&a->in);
+    return true;
+}
+
+/* `parent child child ...` */
+static bool read_children(Asf *a, Error *e) {
+    Word w = stream_peek(&a->in);
+    int parent = 0, child = 0;
+    if (!a->linked && !sort_bones(a, e)) return false;
+    if (word_is(w, "begin") || word_is(w, "end")) {
+        stream_skip_line(&a->in);
+        return true;
+    }
+    if (!find_part(a, &parent, e)) return false;
+    Part *p = &a->part[parent];
+    while (stream_blanks(&a->in) && *a->in.at != '#') {
+        Mark here = stream_mark(&a->in);
+        if (!find_part(a, &child, e)) return false;
+        Part *c = &a->part[child];
+        if (child == 0 || c->parent >= 0) {
+            stream_seek(&a->in, here);
+            return stream_error(&a->in, e, "bone '%.60s' cannot have a parent%s", c->bone.name, child ? " twice" : "");
+        }
+        c->parent = parent;
+        if (p->last_child >= 0) a->part[p->last_child].next = child;
+        else p->first_child = child;
+        p->last_child = child;
+    }
+    return true;
+}
+
+static bool read_documentation(Asf *a, Error *e) {
+    stream_skip_line(&a->in);
+    return stream_sound(&a->in, e);
+}
+
+/* The sections, and what reads a line of each. Others are skipped. */
+static const struct {
+    const char *keyword;
+    bool (*read)(Asf *a, Error *e);
+} sections[] = {
+    {":units", read_units}, {":root", read_root}, {":bonedata", read_bone}, {":hierarchy", read_children},
+};
+
+static bool read_sections(Asf *a, Error *e) {
+    bool (*read)(Asf *, Error *) = NULL;
+    for (;;) {
+        Word w = stream_peek(&a->in);
+        if (w.length == 0) return stream_sound(&a->in, e);
+        if (*w.start == '#') {
+            stream_skip_line(&a->in);
+        } else if (*w.start == ':') {
+            read = read_documentation;
+            for (size_t i = 0; i < sizeof sections / sizeof *sections; i++)
+                if (word_is(w, sections[i].keyword)) read = sections[i].read;
+            if (read == read_documentation) stream_skip_line(&a->in);
+            else stream_word(&a->in);
+        } else if (!read) {
+            return refuse_word(a, w, "a keyword such as :version", e);
+        } else if (!read(a, e)) {
+            return false;
+        }
+    }
+}
+
+/* Rotations and translations in the order of the product, and which value goes where. */
+static void set_channels(Part *p, Joint *j) {
+    Bone *b = &p->bone;
+    int product[6] = {CHANNEL_TX, CHANNEL_TY, CHANNEL_TZ};
+    for (int i = 0; i < 3; i++) product[3 + i] = CHANNEL_RX + (p->order[2 - i] - 'X');
+    for (int i = 0; i < b->ndof; i++) b->slot[i] = -1;
+    for (int k = 0; k < 6; k++) {
+        for (int i = 0; i < b->ndof; i++) {
+            if (b->dof[i] != product[k]) continue;
+            b->slot[i] = j->nchannels;
+            j->channel[j->nchannels++] = (ChannelKind)product[k];
+        }
+    }
+}
+
+static void set_axis(const Asf *a, const Part *p, Joint *j) {
+    static const Vec3 unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const double angle[3] = {p->angles.x, p->angles.y, p->angles.z};
+    j->axis = mat_identity();
+    for (int i = 2; i >= 0; i--) {
+        int k = p->order[i] - 'X';
+        j->axis = mat_mul(j->axis, mat_axis_angle(unit[k], angle[k] * a->degrees * (PI / 180)));
+        j->has_axis |= angle[k] != 0;
+    }
+}
+
+static bool add_end(Asf *a, const Part *p, Joint *out, Error *e) {
+    size_t n = strlen(p->bone.name);
+    char *name = ARENA_NEW(a->o->arena, char, n + sizeof "_End", e);
+    if (!name) return false;
+    memcpy(name, p->bone.name, n);
+    memcpy(name + n, "_End", sizeof "_End");
+    *out = (Joint){.name = name, .parent = p->joint, .axis = mat_identity(), .is_end = true};
+    out->offset = vec_scale(p->direction, p->length);
+    return true;
+}
+
+/* Appends the joint of part i, and the end site of a leaf. */
+static bool add_joint(Asf *a, int i, Joint *joint, int *njoints, Error *e) {
+    Part *p = &a->part[i];
+    Joint *j = &joint[*njoints];
+    *j = (Joint){.name = p->bone.name, .parent = i ? a->part[p->parent].joint : -1};
+    if (i == 0) j->offset = p->direction; /* the root's position; it has no length */
+    else if (p->parent) j->offset = vec_scale(a->part[p->parent].direction, a->part[p->parent].length);
+    set_channels(p, j);
+    set_axis(a, p, j);
+    p->joint = (*njoints)++;
+    return i == 0 || p->first_child >= 0 || add_end(a, p, &joint[(*njoints)++], e);
+}
+
+/* The part behind i in a walk of the tree, children in the order of the file. -1: the last. */
+static int walk(const Asf *a, int i) {
+    if (a->part[i].first_child >= 0) return a->part[i].first_child;
+    while (i >= 0 && a->part[i].next < 0) i = a->part[i].parent;
+    return i < 0 ? -1 : a->part[i].next;
+}
+
+static bool build_joints(Asf *a, Error *e) {
+    Joint *joint = ARENA_NEW(a->o->scratch, Joint, 2 * a->nparts, e);
+    int njoints = 0, placed = 0;
+    if (!joint) return false;
+    for (int i = 0; i >= 0; i = walk(a, i), placed++)
+        if (!add_joint(a, i, joint, &njoints, e)) return false;
+    if (placed < a->nparts)
+        return error_set(e, ERR_INPUT, "'%s': %d bones have no place in the hierarchy", a->in.name, a->nparts - placed);
+    for (int i = 0; i < a->acclaim->nbones; i++) {
+        Bone *b = &a->acclaim->bone[i];
+        const Part *p = &a->part[b->joint];
+        *b = p->bone;
+        b->joint = p->joint;
+    }
+    return source_skeleton(a->o, joint, njoints, e);
+}
+
+bool asf_read(Opening *o, const char *path, Acclaim *out, Error *e) {
+    Asf a = {.o = o, .acclaim = out, .degrees = 1};
+    int fd = -1;
+    *out = (Acclaim){.asf = path};
+    bool good = source_file(path, &fd, e) && stream_open(&a.in, fd, path, o->scratch, e) && add_part(&a, e);
+    if (good) {
+        a.part[0].bone.name = "root";
+        good = read_sections(&a, e);
+    }
+    if (good && !a.linked) good = stream_error(&a.in, e, "no ':hierarchy' of bones: is this an ASF skeleton?");
+    if (good) good = build_joints(&a, e);
+    if (fd >= 0) close(fd);
+    out->degrees = a.degrees;
+    return good;
+}
+
+/* Is `stem` the beginning of `name` up to a place where a word ends? 02 of 02_03, not of 021. */
+static bool is_prefix(const char *stem, size_t n, const char *name, size_t length) {
+    return n <= length && memcmp(stem, name, n) == 0 && (n == length || !strchr("0123456789", name[n]));
+}
+
+typedef struct {
+    char best[256]; /* the file with the longest stem that fits, or the only one */
+    size_t stem;    /* its length; 0: it does not fit */
+    int count;      /* files that end in .asf */
+} Search;
+
+static void consider(Search *found, const char *file, const char *name, size_t length) {
+    size_t n = strlen(file);
+    if (n <= 4 || n >= sizeof found->best || strcasecmp(file + n - 4, ".asf") != 0) return;
+    found->count++;
+    size_t stem = is_prefix(file, n - 4, name, length) ? n - 4 : 0;
+    /* Of a.asf and a.ASF take one whatever the order of the folder. */
+    bool better = stem > found->stem || (stem == found->stem && (found->count == 1 || strcmp(file, found->best) < 0));
+    if (!better) return;
+    memcpy(found->best, file, n + 1);
+    found->stem = stem;
+}
+
+bool asf_find(Opening *o, const char **path, Error *e) {
+    const char *amc = o->motion->path, *slash = strrchr(amc, '/'), *name = slash ? slash + 1 : amc;
+    if (strcmp(amc, "-") == 0) return error_set(e, ERR_INPUT, "an AMC motion on standard input needs its skeleton: give --asf");
+    const char *dot = strrchr(name, '.');
+    size_t length = dot ? (size_t)(dot - name) : strlen(name), folder = (size_t)(name - amc);
+    const char *where = folder ? arena_text(o->arena, amc, folder, e) : ".";
+    if (!where) return false;
+    DIR *dir = opendir(where);
+    if (!dir) return error_set(e, ERR_INPUT, "cannot list '%s' for the skeleton of '%s': %s", where, amc, strerror(errno));
+    Search found = {.count = 0};
+    for (struct dirent *entry; (entry = readdir(dir));) consider(&found, entry->d_name, name, length);
+    closedir(dir);
+    if (!found.stem && found.count != 1)
+        return error_set(e, ERR_INPUT, "no skeleton for '%s': %s beside it; give --asf", amc,
+                         found.count ? "none of the .asf files has a name that fits" : "there is no .asf file");
+    char *full = ARENA_NEW(o->arena, char, folder + strlen(found.best) + 1, e);
+    if (!full) return false;
+    memcpy(full, amc, folder);
+    memcpy(full + folder, found.best, strlen(found.best));
+    *path = full;
+    return true;
+}
