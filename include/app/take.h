@@ -1,0 +1,34 @@
+/* A take: the frames of a motion as poses of its figure, one after the other, selected,
+   resampled in time where that is asked for, and with jumps marked. */
+#ifndef APP_TAKE_H
+#define APP_TAKE_H
+
+#include "app/settings.h"
+#include "figure/figure.h"
+
+typedef struct {
+    int number;   /* from 1, of the source or, resampled, of the resampled frames */
+    double time;  /* seconds since the first frame of the motion */
+    double dt;    /* seconds since the last frame of the take; 0 for its first */
+    bool restart; /* the first one, or the figure has jumped since the last one */
+    Pose pose;
+} TakeFrame;
+
+typedef struct Take Take;
+
+/* rate 0: the motion's own. ERR_USAGE for a span that holds no frame. Memory from arena, as
+   much for a long motion as for a short one. */
+MUST_CHECK bool take_open(const Motion *m, const Figure *figure, const FrameSpan *span, double rate, Arena *arena,
+                          Take **out, Error *e);
+void take_close(Take *t);
+
+/* How many frames there will be. */
+int take_count(const Take *t);
+
+/* The next frame. False at the end (no error) or with an error; check e->kind. */
+bool take_next(Take *t, TakeFrame *out, Error *e);
+
+/* The jumps that were passed so far, as warnings. */
+void take_notes(const Take *t, Notes *notes);
+
+#endif

@@ -1,0 +1,208 @@
+/* From the rows of a motion file to the poses that are dressed.
+
+   The one idea is a window of two neighbouring source frames that only moves forward. A
+   resampled frame lies between the two: each joint's transform relative to its parent is
+   interpolated (rotations as quaternions, never the file's angles, which wrap and lock), so
+   that bones keep their length. And because every source frame passes through the window, also
+   those that are skipped, no jump goes unseen.
+
+   A jump is a step that no body makes: a T-pose in front of the take, or a root that teleports
+   (rows 25 and 26 of the table of defects). Both sides are dressed as they stand, but nothing is
+   carried across, and nothing interpolated between. */
+#include "app/take.h"
+
+#include <math.h>
+
+/* A punch moves a hand at about 12 heights a second (20 m/s). A wrong frame time must not turn
+   ordinary steps into jumps, so a jump also has to be wide, in heights. */
+static const double JUMP_SPEED = 25, JUMP_STEP = 0.2;
+
+/* The first frame stands alone if the step to the second is so many times wider than any of the
+   next steps, and wider than this part of the height. */
+static const double LONE_FACTOR = 4, LONE_STEP = 0.05;
+enum { LONE_LOOK = 8, JUMPS_KEPT = 8 };
+
+/* A source frame: the joints in the file's units and axes, and the figure's pose. */
+typedef struct { int frame; Rigid *world; Pose pose; } Sample;
+
+struct Take {
+    const Motion *motion;
+    const Figure *figure;
+    MotionReader *reader;
+    double *row;
+    double rate;               /* 0: the source's */
+    int number, last, step;    /* of the next frame, from 1 */
+    bool begun;
+    Sample behind, ahead;      /* the window: ahead.frame == behind.frame + 1, from 0 */
+    bool passed;               /* a jump between the frame that was last given out and `behind` */
+    bool within;               /* a jump between `behind` and `ahead` */
+    Rigid *between;            /* joints of a resampled frame */
+    bool lone_first;
+    double last_time;
+    int njumps;
+    struct { int frame; double width; } jump[JUMPS_KEPT]; /* frame from 1: the one behind the jump */
+};
+
+static bool load(Take *t, Sample *s, int frame, Error *e) {
+    s->frame = frame;
+    if (!motion_row(t->reader, frame, t->row, e)) return false;
+    skeleton_pose(&t->motion->skeleton, t->row, s->world);
+    figure_pose(t->figure, s->world, &s->pose);
+    return true;
+}
+
+/* Moves the window one frame on. */
+static bool shift(Take *t, Error *e) {
+    Sample swap = t->behind;
+    t->behind = t->ahead;
+    t->ahead = swap;
+    return load(t, &t->ahead, t->behind.frame + 1, e);
+}
+
+/* The widest step of a bone from one side of the window to the other, in heights. */
+static double step_width(const Take *t) { return figure_speed(t->figure, &t->behind.pose, &t->ahead.pose, 1); }
+
+/* Does the first frame not belong to the rest? */
+static bool look_at_first(Take *t, Error *e) {
+    int look = t->motion->nframes - 1 < LONE_LOOK ? t->motion->nframes - 1 : LONE_LOOK;
+    if (look < 3) return true; /* nothing to compare with */
+    double first = 0, widest = 0;
+    if (!load(t, &t->ahead, 0, e)) return false;
+    for (int i = 1; i <= look; i++) {
+        if (!shift(t, e)) return false;
+        double width = step_width(t);
+        if (i == 1) first = width;
+        else if (width > widest) widest = width;
+    }
+    t->lone_first = first > LONE_STEP && first > LONE_FACTOR * widest;
+    return true;
+}
+
+/* Moves on and looks for a jump inside the window. */
+static bool advance(Take *t, Error *e) {
+    if (!shift(t, e)) return false;
+    double width = step_width(t);
+    t->passed = t->passed || t->within;
+    t->within = (t->ahead.frame == 1 && t->lone_first) || (width > JUMP_STEP && width > JUMP_SPEED * t->motion->frame_time);
+    if (!t->within) return true;
+    if (t->njumps < JUMPS_KEPT) {
+        t->jump[t->njumps].frame = t->ahead.frame + 1;
+        t->jump[t->njumps].width = width;
+    }
+    t->njumps++;
+    return true;
+}
+
+/* Frame times are rounded in files ("0.0083333"), so a hundredth of a frame may be missing. */
+static int count_frames(const Motion *m, double rate) {
+    if (rate <= 0) return m->nframes;
+    double n = floor((m->nframes - 1) * m->frame_time * rate + 0.01) + 1;
+    return n < 2e9 ? (int)n : 2000000000;
+}
+
+bool take_open(const Motion *m, const Figure *figure, const FrameSpan *span, double rate, Arena *arena, Take **out, Error *e) {
+    const Skeleton *s = &m->skeleton;
+    Take *t = ARENA_NEW(arena, Take, 1, e);
+    *out = t;
+    if (!t) return false;
+    int total = count_frames(m, rate);
+    *t = (Take){.motion = m, .figure = figure, .rate = rate};
+    t->number = span->first ? span->first : 1;
+    t->last = span->last && span->last < total ? span->last : total;
+    t->step = span->step ? span->step : 1;
+    if (t->number > total)
+        return error_set(e, ERR_USAGE, "'--frames' begins at %d, but '%s' has %d frame%s", t->number, m->path, total, total == 1 ? "" : "s");
+    t->row = ARENA_NEW(arena, double, s->nchannels, e);
+    t->behind.world = ARENA_NEW(arena, Rigid, s->njoints, e);
+    t->ahead.world = ARENA_NEW(arena, Rigid, s->njoints, e);
+    t->between = ARENA_NEW(arena, Rigid, s->njoints, e);
+    if (!t->row || !t->behind.world || !t->ahead.world || !t->between) return false;
+    return motion_reader_open(m, arena, &t->reader, e) && look_at_first(t, e);
+}
+
+void take_close(Take *t) {
+    if (t && t->reader) motion_reader_close(t->reader);
+}
+
+int take_count(const Take *t) { return t->number > t->last ? 0 : (t->last - t->number) / t->step + 1; }
+
+/* Moves the window until `frame` is the one ahead; it may already be further. */
+static bool reach(Take *t, int frame, int begin, Error *e) {
+    if (!t->begun) {
+        if (!load(t, &t->ahead, begin, e)) return false;
+        t->behind.frame = begin - 1;
+        t->begun = true;
+    }
+    while (t->ahead.frame < frame)
+        if (!advance(t, e)) return false;
+    return true;
+}
+
+/* The pose at `part` of the way from the frame behind to the frame ahead. */
+static void interpolate(Take *t, double part, Pose *out) {
+    const Skeleton *s = &t->motion->skeleton;
+    for (int j = 0; j < s->njoints; j++) {
+        int up = s->joint[j].parent;
+        Rigid a = t->behind.world[j], b = t->ahead.world[j];
+        if (up >= 0) {
+            a = rigid_mul(rigid_inverse(t->behind.world[up]), a);
+            b = rigid_mul(rigid_inverse(t->ahead.world[up]), b);
+        }
+        Rigid local = {mat_nlerp(a.r, b.r, part), vec_lerp(a.t, b.t, part)};
+        t->between[j] = up >= 0 ? rigid_mul(t->between[up], local) : local;
+    }
+    figure_pose(t->figure, t->between, out);
+}
+
+/* A frame of the source as it stands. */
+static bool give_source(Take *t, int frame, TakeFrame *out, Error *e) {
+    if (!reach(t, frame, frame, e)) return false;
+    bool is_ahead = t->ahead.frame == frame;
+    out->pose = is_ahead ? t->ahead.pose : t->behind.pose;
+    out->restart = t->passed || (is_ahead && t->within);
+    t->passed = false;
+    if (is_ahead) t->within = false;
+    return true;
+}
+
+/* A frame between two of the source; at a jump there is nothing between, and the earlier stays. */
+static bool give_between(Take *t, int frame, double part, TakeFrame *out, Error *e) {
+    if (!reach(t, frame + 1, frame, e)) return false;
+    if (t->within) out->pose = t->behind.pose;
+    else interpolate(t, part, &out->pose);
+    out->restart = t->passed;
+    t->passed = false;
+    return true;
+}
+
+bool take_next(Take *t, TakeFrame *out, Error *e) {
+    if (t->number > t->last) return false;
+    bool is_first = !t->begun, good;
+    double frame_time = t->motion->frame_time;
+    out->number = t->number;
+    if (t->rate > 0) {
+        out->time = (t->number - 1) / t->rate;
+        double place = fmin(out->time / frame_time, t->motion->nframes - 1), nearest = floor(place + 0.5);
+        if (fabs(place - nearest) < 1e-6) good = give_source(t, (int)nearest, out, e); /* its own frame, not one beside it */
+        else good = give_between(t, (int)place, place - floor(place), out, e);
+    } else {
+        out->time = (t->number - 1) * frame_time;
+        good = give_source(t, t->number - 1, out, e);
+    }
+    out->restart = out->restart || is_first;
+    out->dt = is_first ? 0 : out->time - t->last_time;
+    t->last_time = out->time;
+    t->number = t->step > t->last - t->number ? t->last + 1 : t->number + t->step;
+    return good;
+}
+
+void take_notes(const Take *t, Notes *notes) {
+    Place place = {.file = t->motion->path};
+    for (int i = 0; i < t->njumps && i < JUMPS_KEPT; i++) {
+        if (t->jump[i].frame == 2 && t->lone_first)
+            notes_add(notes, place, "frame 1 stands apart from the rest; frame 2 starts afresh");
+        else
+            notes_add(notes, place, "the figure jumps by %.2f heights to frame %d, which starts afresh", t->jump[i].width, t->jump[i].frame);
+    }
+    if (t->njumps > JUMPS_KEPT) notes_add(notes, place, "the figure jumps %d times more", t->njumps - JUMPS_KEPT);
+}
