@@ -100,8 +100,8 @@ const Option *settings_nearest(const char *name, unsigned commands);
    names the option, says what was expected and quotes what was found. */
 MUST_CHECK bool settings_put(Settings *s, const Option *option, const char *text, Arena *arena, Error *e);
 
-/* Adds a word that is no option to `inputs`. */
-MUST_CHECK bool settings_operand(Settings *s, const char *text, Arena *arena, Error *e);
+/* Adds a text to a list, which must outlive it. */
+MUST_CHECK bool settings_append(TextList *list, const char *text, Arena *arena, Error *e);
 
 /* "adaptive, uniform or none" into out (capacity n, always terminated); returns out. */
 const char *settings_choices(const Choice *choices, char *out, size_t n);

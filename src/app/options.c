@@ -101,7 +101,7 @@ bool options_parse(const Command *command, int argc, char **argv, Arena *arena, 
         if (!operands_only && strcmp(word, "--") == 0) operands_only = true;
         else if (!operands_only && strncmp(word, "--", 2) == 0) good = parse_long(&p, word, e);
         else if (!operands_only && word[0] == '-' && word[1]) good = parse_letters(&p, word, e);
-        else good = settings_operand(out, word, arena, e);
+        else good = settings_append(&out->inputs, word, arena, e);
         if (!good) return false;
         if (out->help || out->version) return true;
     }

@@ -238,7 +238,7 @@ static bool put_span(FrameSpan *field, const Option *option, const char *text, E
     return error_set(e, ERR_USAGE, "option '--%s': expected A:B:STEP with frames from 1 and A <= B, found '%s'", option->name, text);
 }
 
-static bool put_list(TextList *list, const char *text, Arena *arena, Error *e) {
+bool settings_append(TextList *list, const char *text, Arena *arena, Error *e) {
     if ((list->count & (list->count - 1)) == 0) { /* full at every power of two */
         const char **more = ARENA_NEW(arena, const char *, list->count ? 2 * list->count : 1, e);
         if (!more) return false;
@@ -255,7 +255,7 @@ bool settings_put(Settings *s, const Option *option, const char *text, Arena *ar
     case KIND_FLAG: return put_flag(field, option, text, e);
     case KIND_INT: return put_int(field, option, text, e);
     case KIND_REAL: return put_real(field, option, text, e);
-    case KIND_LIST: return put_list(field, text, arena, e);
+    case KIND_LIST: return settings_append(field, text, arena, e);
     case KIND_CHOICE: return put_choice(field, option, text, e);
     case KIND_SET: return put_set(field, option, text, e);
     case KIND_SPAN: return put_span(field, option, text, e);
@@ -266,5 +266,3 @@ bool settings_put(Settings *s, const Option *option, const char *text, Arena *ar
     *(const char **)field = text;
     return true;
 }
-
-bool settings_operand(Settings *s, const char *text, Arena *arena, Error *e) { return put_list(&s->inputs, text, arena, e); }

@@ -1,0 +1,14 @@
+/* Ctrl-C and SIGTERM: a request that is looked at between frames. */
+#ifndef APP_STOP_H
+#define APP_STOP_H
+
+#include <stdbool.h>
+
+/* From now on the first SIGINT or SIGTERM only sets a flag, a second one ends the program at
+   once; a closed pipe is an error of the write and no longer kills. */
+void stop_listen(void);
+
+/* Has somebody asked to stop? */
+bool stop_requested(void);
+
+#endif
