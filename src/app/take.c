@@ -13,9 +13,10 @@
 
 #include <math.h>
 
-/* A punch moves a hand at about 12 heights a second (20 m/s). A wrong frame time must not turn
-   ordinary steps into jumps, so a jump also has to be wide, in heights. */
-static const double JUMP_SPEED = 25, JUMP_STEP = 0.2;
+/* Heights a second, and heights. Kicks and dances that were looked at reach 9 heights a second, a
+   pitcher's hand about 14; a rest pose that a converter has blended into a take moves at 18 to 60.
+   A step also has to be wide, so that noise at a high frame rate is none. */
+static const double JUMP_SPEED = 15, JUMP_STEP = 0.1;
 
 /* The first frame stands alone if the step to the second is so many times wider than any of the
    next steps, and wider than this part of the height. */
@@ -24,6 +25,9 @@ enum { LONE_LOOK = 8, JUMPS_KEPT = 8 };
 
 /* A source frame: the joints in the file's units and axes, and the figure's pose. */
 typedef struct { int frame; Rigid *world; Pose pose; } Sample;
+
+/* Neighbouring frames first..last, from 1, each of which stands apart from the one before. */
+typedef struct { int first, last; double width; } Jump;
 
 struct Take {
     const Motion *motion;
@@ -40,7 +44,7 @@ struct Take {
     bool lone_first;
     double last_time;
     int njumps;
-    struct { int frame; double width; } jump[JUMPS_KEPT]; /* frame from 1: the one behind the jump */
+    Jump jump[JUMPS_KEPT];
 };
 
 static bool load(Take *t, Sample *s, int frame, Error *e) {
@@ -78,18 +82,23 @@ static bool look_at_first(Take *t, Error *e) {
     return true;
 }
 
+static void keep_jump(Take *t, int frame, double width) {
+    Jump *last = t->njumps && t->njumps <= JUMPS_KEPT ? &t->jump[t->njumps - 1] : NULL;
+    if (last && last->last == frame - 1) {
+        last->last = frame;
+        last->width = fmax(last->width, width);
+    } else if (t->njumps++ < JUMPS_KEPT) {
+        t->jump[t->njumps - 1] = (Jump){frame, frame, width};
+    }
+}
+
 /* Moves on and looks for a jump inside the window. */
 static bool advance(Take *t, Error *e) {
     if (!shift(t, e)) return false;
     double width = step_width(t);
     t->passed = t->passed || t->within;
     t->within = (t->ahead.frame == 1 && t->lone_first) || (width > JUMP_STEP && width > JUMP_SPEED * t->motion->frame_time);
-    if (!t->within) return true;
-    if (t->njumps < JUMPS_KEPT) {
-        t->jump[t->njumps].frame = t->ahead.frame + 1;
-        t->jump[t->njumps].width = width;
-    }
-    t->njumps++;
+    if (t->within) keep_jump(t, t->ahead.frame + 1, width);
     return true;
 }
 
@@ -199,10 +208,15 @@ bool take_next(Take *t, TakeFrame *out, Error *e) {
 void take_notes(const Take *t, Notes *notes) {
     Place place = {.file = t->motion->path};
     for (int i = 0; i < t->njumps && i < JUMPS_KEPT; i++) {
-        if (t->jump[i].frame == 2 && t->lone_first)
-            notes_add(notes, place, "frame 1 stands apart from the rest; frame 2 starts afresh");
+        const Jump *j = &t->jump[i];
+        if (j->first == 2 && j->last == 2) notes_add(notes, place, "frame 1 stands apart from the rest; cloth starts afresh at frame 2");
+        else if (j->first == 2)
+            notes_add(notes, place, "the first %d frames stand apart from the rest; cloth starts afresh up to frame %d", j->last - 1, j->last);
+        else if (j->first == j->last)
+            notes_add(notes, place, "the figure jumps by %.2f heights to frame %d, where cloth starts afresh", j->width, j->first);
         else
-            notes_add(notes, place, "the figure jumps by %.2f heights to frame %d, which starts afresh", t->jump[i].width, t->jump[i].frame);
+            notes_add(notes, place, "the figure jumps by up to %.2f heights to each of frames %d to %d, where cloth starts afresh",
+                      j->width, j->first, j->last);
     }
-    if (t->njumps > JUMPS_KEPT) notes_add(notes, place, "the figure jumps %d times more", t->njumps - JUMPS_KEPT);
+    if (t->njumps > JUMPS_KEPT) notes_add(notes, place, "the figure jumps in %d more places", t->njumps - JUMPS_KEPT);
 }
