@@ -2,7 +2,8 @@
 # The Makefile and the rules of the house.
 . "$(dirname "$0")/lib.sh"
 
-# The variables that `make test` was called with hold for these calls too.
+# The variables that `make test` was called with hold for these calls too, its threads do not.
+MAKEFLAGS=$(printf '%s' "${MAKEFLAGS:-}" | sed 's/--jobserver[^ ]*//g; s/-j *[0-9]*//g')
 run_make() { make --no-print-directory -C "$root" BUILD="$KITSUKE_BUILD" DEPS=no "$@"; }
 
 like 'make help tells of every target' "$(run_make help | awk '{ printf "%s ", $1 }')" \
