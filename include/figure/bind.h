@@ -2,10 +2,10 @@
 #ifndef FIGURE_BIND_H
 #define FIGURE_BIND_H
 
-#include "figure/figure.h"
+#include "figure/rest.h"
 #include "figure/sample.h"
 
-/* Fills bind, bound and rest of a measured figure. */
-void figure_bind(const Skeleton *skeleton, const Sample *sample, Figure *f);
+/* Fills bind and bound of a measured figure. */
+void figure_bind(const Skeleton *skeleton, const Sample *sample, const Rest *rest, Figure *f);
 
 #endif

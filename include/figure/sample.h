@@ -5,13 +5,15 @@
 
 #include "motion/motion.h"
 
+enum { SAMPLE_FRAMES_MAX = 64, SAMPLE_BEST_MAX = 16 };
+
 typedef struct {
     int count, njoints;
     const int *frame;   /* which frame of the motion each one is */
     const Rigid *world; /* count x njoints, file units and axes */
 } Sample;
 
-/* At most `wanted` frames. Long motions give their first frame, often a T-pose that is no
+/* At most `wanted` frames, wanted <= SAMPLE_FRAMES_MAX. Long motions give their first frame, often a T-pose that is no
    part of the take, no vote. */
 MUST_CHECK bool sample_read(const Motion *m, int wanted, Arena *arena, Sample *out, Error *e);
 
@@ -20,6 +22,13 @@ static inline Vec3 sample_point(const Sample *s, int i, int joint) { return s->w
 
 /* Mean distance between two joints, file units. */
 double sample_distance(const Sample *s, int a, int b);
+
+/* The frames with the largest scores (one for each frame), best first: a quarter of all, at
+   least one. Returns their number. */
+int sample_best(const Sample *s, const double *score, int out[SAMPLE_BEST_MAX]);
+
+/* The same for the frames in which two joints are lowest. upright: file axes -> Y up. */
+int sample_lowest(const Sample *s, Mat3 upright, int a, int b, int out[SAMPLE_BEST_MAX]);
 
 /* The joint below `joint` (end sites too) that lies farthest from it in the first frame of
    the sample; -1 where nothing below it has any distance. */

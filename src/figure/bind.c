@@ -3,11 +3,8 @@
    Where the zero pose is a human pose (T, A or hanging arms) it answers for the whole torso at
    once: all joint frames are parallel there. Where bones merely lie along an axis, frames of
    the motion answer: in those in which the performer stands straightest, up is up, and the
-   hip and shoulder lines give left. Feet are bound where they stand flattest on the floor,
-   because rest poses often let them hang. */
+   hip and shoulder lines give left; feet are flat where they stand lowest. */
 #include "figure/bind.h"
-
-enum { CHOSEN_MAX = 16 };
 
 /* ---- means of rotations ---- */
 
@@ -59,131 +56,50 @@ static Mat3 stand_across(Vec3 left, Vec3 up) {
     return mat_columns(x, y, vec_cross(x, y));
 }
 
-/* ---- the zero pose ---- */
-
-static Vec3 zero_place(const Skeleton *s, int joint) {
-    Vec3 p = {0, 0, 0};
-    for (int j = joint; j >= 0; j = s->joint[j].parent) p = vec_add(p, s->joint[j].offset);
-    return p;
-}
-
-static Vec3 zero_line(const Binder *b, int from, int to) {
-    return vec_sub(zero_place(b->skeleton, to), zero_place(b->skeleton, from));
-}
-
-static Vec3 zero_bone(const Binder *b, Role role) {
-    int next = b->f->toward[role];
-    if (next < 0) return vec(0, 0, 0);
-    return vec_unit_or(zero_line(b, b->f->roles.joint[role], next), vec(0, 0, 0));
-}
-
-/* The file axis within `cosine` of a direction, else the direction itself. */
-static Vec3 snap(Vec3 v, double cosine) {
-    for (int i = 0; i < 6; i++) {
-        double sign = i < 3 ? 1 : -1;
-        Vec3 axis = vec(i % 3 == 0 ? sign : 0, i % 3 == 1 ? sign : 0, i % 3 == 2 ? sign : 0);
-        if (vec_dot(axis, v) > cosine) return axis;
-    }
-    return v;
-}
-
-static bool feet_are_human(const Binder *b) {
-    for (int side = 0; side < 2; side++) {
-        Role foot = side ? ROLE_RIGHT_FOOT : ROLE_LEFT_FOOT;
-        if (b->f->roles.joint[foot] < 0 || b->f->toward[foot] < 0) continue;
-        double along = vec_dot(zero_bone(b, foot), zero_bone(b, foot - 1));
-        if (along > 0.9 || along < -0.5) return false;
-    }
-    return true;
-}
-
-/* Legs down, arms mirrored and not up, feet across the shins. *frame: its left, up, forward in
-   file axes. */
-static bool zero_is_human(const Binder *b, Mat3 *frame) {
-    const int *j = b->f->roles.joint;
-    Vec3 left_hip = zero_place(b->skeleton, j[ROLE_LEFT_THIGH]), right_hip = zero_place(b->skeleton, j[ROLE_RIGHT_THIGH]);
-    Vec3 left_arm = zero_place(b->skeleton, j[ROLE_LEFT_UPPER_ARM]);
-    Vec3 right_arm = zero_place(b->skeleton, j[ROLE_RIGHT_UPPER_ARM]);
-    Vec3 torso = vec_sub(vec_mid(left_arm, right_arm), vec_mid(left_hip, right_hip));
-    Vec3 hips = vec_unit_or(vec_sub(left_hip, right_hip), vec(0, 0, 0));
-    Vec3 shoulders = vec_unit_or(vec_sub(left_arm, right_arm), vec(0, 0, 0));
-    Vec3 up = snap(vec_unit_or(torso, vec(0, 0, 0)), 0.87);
-    /* Hips of no width leave the shoulders to say what is left. */
-    if (vec_len(hips) == 0) hips = shoulders;
-    if (vec_dot(hips, shoulders) < 0.85 || fabs(vec_dot(hips, up)) > 0.3) return false;
-    Mat3 m = stand(snap(vec_unit_or(vec_add(hips, shoulders), hips), 0.96), up);
-    static const Role legs[] = {ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN};
-    for (int i = 0; i < 4; i++)
-        if (vec_dot(zero_bone(b, legs[i]), up) > -0.8) return false;
-    for (Role r = ROLE_LEFT_UPPER_ARM; r <= ROLE_LEFT_FOREARM; r++) {
-        Vec3 l = mat_apply(mat_transpose(m), zero_bone(b, r));
-        Vec3 other = mat_apply(mat_transpose(m), zero_bone(b, r + ROLE_RIGHT_CLAVICLE - ROLE_LEFT_CLAVICLE));
-        if (l.y > 0.5 || vec_dist(l, vec(-other.x, other.y, other.z)) > 0.5 || l.x < -0.3) return false;
-    }
-    *frame = m;
-    return feet_are_human(b);
-}
-
-static const char *name_of_rest(const Binder *b, Mat3 frame) {
-    double down = -vec_dot(zero_bone(b, ROLE_LEFT_UPPER_ARM), mat_column(frame, 1));
-    return down < 0.42 ? "T-pose offsets" : down < 0.87 ? "A-pose offsets" : "offsets with hanging arms";
-}
-
 /* ---- upright frames ---- */
 
-/* How straight the performer stands: 1 = torso and legs along the vertical. */
-static double straightness(const Binder *b, int frame) {
+/* From hips to shoulders, unit. */
+static Vec3 back_line(const Binder *b, int frame) {
     const int *j = b->f->roles.joint;
     Vec3 hips = vec_mid(place(b, frame, j[ROLE_LEFT_THIGH]), place(b, frame, j[ROLE_RIGHT_THIGH]));
     Vec3 arms = vec_mid(place(b, frame, j[ROLE_LEFT_UPPER_ARM]), place(b, frame, j[ROLE_RIGHT_UPPER_ARM]));
-    double torso = vec_unit_or(vec_sub(arms, hips), vec(0, 0, 0)).y;
+    return vec_unit_or(vec_sub(arms, hips), vec(0, 1, 0));
+}
+
+/* How straight the performer stands: 1 = torso and legs along the vertical. */
+static double straightness(const Binder *b, int frame) {
     double legs = vec_unit_or(line(b, frame, ROLE_LEFT_SHIN, ROLE_LEFT_THIGH), vec(0, 0, 0)).y +
                   vec_unit_or(line(b, frame, ROLE_RIGHT_SHIN, ROLE_RIGHT_THIGH), vec(0, 0, 0)).y;
-    return 0.6 * torso + 0.2 * legs;
+    return 0.6 * back_line(b, frame).y + 0.2 * legs;
 }
-
-/* The frames with the largest scores, best first; at least one, at most a quarter of all. */
-static int choose(const double *score, int n, int *out) {
-    int count = 0, most = n / 4 < 1 ? 1 : n / 4 > CHOSEN_MAX ? CHOSEN_MAX : n / 4;
-    for (int i = 0; i < n; i++) {
-        int k = count < most ? count++ : most;
-        if (k == most) {
-            if (score[i] <= score[out[most - 1]]) continue;
-            k--;
-        }
-        while (k > 0 && score[out[k - 1]] < score[i]) { out[k] = out[k - 1]; k--; }
-        out[k] = i;
-    }
-    return count;
-}
-
-enum { FRAMES_MAX = 256 };
 
 static int choose_upright(const Binder *b, int *out) {
-    double score[FRAMES_MAX];
-    int n = b->sample->count < FRAMES_MAX ? b->sample->count : FRAMES_MAX;
-    for (int i = 0; i < n; i++) score[i] = straightness(b, i);
-    return choose(score, n, out);
+    double score[SAMPLE_FRAMES_MAX];
+    for (int i = 0; i < b->sample->count; i++) score[i] = straightness(b, i);
+    return sample_best(b->sample, score, out);
 }
 
 /* Bone-axis rigs put the joints' own axes along and across the body; an estimate of left
    that comes close to one of them means it. */
 static Mat3 snap_left(Mat3 bind) {
-    Vec3 left = snap(mat_column(bind, 0), 0.95), up = mat_column(bind, 1);
+    Vec3 left = rest_snap(mat_column(bind, 0), 0.95), up = mat_column(bind, 1);
     return stand_across(left, up);
 }
 
-/* bind of a joint from frames in which up is up and left is the line between two joints. */
-static Mat3 bind_from_line(const Binder *b, const int *frames, int n, int joint, Role right, Role left) {
+/* bind of a joint from frames in which left is the line between two joints and up is the line
+   of the back, with a share of the vertical: a chest leans as the back leans, a pelvis less. */
+static Mat3 bind_from_line(const Binder *b, const int *frames, int n, int joint, Role right, Role left, double vertical) {
     Mean mean = {{0, 0, 0, 0}, 0};
     for (int i = 0; i < n; i++) {
-        Mat3 body = stand_across(line(b, frames[i], right, left), vec(0, 1, 0));
+        Vec3 up = vec_lerp(back_line(b, frames[i]), vec(0, 1, 0), vertical);
+        Mat3 body = stand_across(line(b, frames[i], right, left), up);
         mean_add(&mean, mat_mul(mat_transpose(turn(b, frames[i], joint)), body));
     }
     return snap_left(mean_of(&mean));
 }
 
-/* bind of a joint that on the mean over the frames is turned like bone `like`. */
+/* bind of a joint that on the mean over the frames stands upright and faces where bone `like`
+   does. */
 static Mat3 bind_like(const Binder *b, const int *frames, int n, int joint, Role like) {
     Mean mean = {{0, 0, 0, 0}, 0};
     for (int i = 0; i < n; i++) {
@@ -194,21 +110,34 @@ static Mat3 bind_like(const Binder *b, const int *frames, int n, int joint, Role
     return snap_left(mean_of(&mean));
 }
 
-/* ---- feet ---- */
+/* Heads that lean back in every upright frame are bound wrongly: people look ahead, or down.
+   More than this (radians) is taken off. */
+static const double HEAD_BACK = 0.17;
 
-/* Frames in which ankle and toes are lowest: the foot stands flat. */
-static int choose_flat(const Binder *b, int ankle, int tip, int *out) {
-    double score[FRAMES_MAX];
-    int n = b->sample->count < FRAMES_MAX ? b->sample->count : FRAMES_MAX;
-    for (int i = 0; i < n; i++) score[i] = -place(b, i, ankle).y - place(b, i, tip).y;
-    return choose(score, n, out);
+static Mat3 head_from_rest(const Binder *b, const int *frames, int n, Mat3 rest) {
+    Mat3 level = bind_like(b, frames, n, b->f->roles.joint[ROLE_HEAD], ROLE_CHEST);
+    Mat3 d = mat_mul(mat_transpose(rest), level);
+    double back = atan2(d.r[2].y, d.r[1].y);
+    if (back <= HEAD_BACK) return rest;
+    return mat_mul(rest, mat_axis_angle(vec(1, 0, 0), back - HEAD_BACK));
 }
 
-/* False where the frames do not tell (no tip, foot upright, or frames that disagree). */
+/* ---- feet ---- */
+
+/* Flat, turned to where the toes point: from the zero pose. */
+static Mat3 foot_from_rest(const Binder *b, Role foot, Mat3 rest) {
+    Vec3 up = mat_column(rest, 1), along = rest_bone(b->skeleton, b->f, foot);
+    along = vec_mad(along, up, -vec_dot(along, up));
+    if (vec_len(along) < 0.5 || vec_dot(along, mat_column(rest, 2)) < 0) return rest;
+    return stand(vec_cross(up, along), up);
+}
+
+/* The same from the frames in which ankle and toes are lowest. False where these do not tell:
+   no toes, foot upright, or frames that disagree. */
 static bool foot_from_frames(const Binder *b, Role foot, Mat3 *bind) {
-    int joint = b->f->roles.joint[foot], tip = b->f->toward[foot], frames[CHOSEN_MAX];
+    int joint = b->f->roles.joint[foot], tip = b->f->toward[foot], frames[SAMPLE_BEST_MAX];
     if (tip < 0) return false;
-    int n = choose_flat(b, joint, tip, frames);
+    int n = sample_lowest(b->sample, b->f->upright, joint, tip, frames);
     Mean mean = {{0, 0, 0, 0}, 0};
     Vec3 ups = {0, 0, 0};
     for (int i = 0; i < n; i++) {
@@ -224,45 +153,39 @@ static bool foot_from_frames(const Binder *b, Role foot, Mat3 *bind) {
     return n >= 3 && vec_len(ups) / n > 0.97;
 }
 
-/* From the zero pose: flat, turned to where the toes point. */
-static Mat3 foot_from_rest(const Binder *b, Role foot, Mat3 rest) {
-    Vec3 up = mat_column(rest, 1), along = zero_bone(b, foot);
-    along = vec_mad(along, up, -vec_dot(along, up));
-    if (vec_len(along) < 0.5 || vec_dot(along, mat_column(rest, 2)) < 0) return rest;
-    return stand(vec_cross(up, along), up);
+/* Toes lie as the foot does when it is flat. */
+static void bind_toe(const Binder *b, Role foot, const Rest *rest) {
+    Figure *f = b->f;
+    Role toe = foot + 1;
+    int joint = f->roles.joint[toe], frames[SAMPLE_BEST_MAX];
+    if (joint < 0 || f->toward[foot] < 0) return;
+    f->bound[toe] = true;
+    if (rest->human) { f->bind[toe] = f->bind[foot]; return; }
+    Mean mean = {{0, 0, 0, 0}, 0};
+    int n = sample_lowest(b->sample, f->upright, f->roles.joint[foot], f->toward[foot], frames);
+    for (int i = 0; i < n; i++) {
+        Mat3 flat = mat_mul(turn(b, frames[i], f->roles.joint[foot]), f->bind[foot].r);
+        mean_add(&mean, mat_mul(mat_transpose(turn(b, frames[i], joint)), flat));
+    }
+    f->bind[toe].r = mean_of(&mean);
 }
 
-static void bind_foot(const Binder *b, Role foot, const Mat3 *rest, const int *upright, int n) {
+static void bind_foot(const Binder *b, Role foot, const Rest *rest, const int *upright, int n) {
     Figure *f = b->f;
     int joint = f->roles.joint[foot];
     if (joint < 0) return;
-    Mat3 from_frames, *bind = &f->bind[foot].r;
-    bool told = foot_from_frames(b, foot, &from_frames);
-    if (rest) {
-        *bind = foot_from_rest(b, foot, *rest);
-        if (told && vec_dot(mat_column(*bind, 1), mat_column(from_frames, 1)) > 0.85) *bind = from_frames;
-    } else if (told) {
-        *bind = from_frames;
-    } else {
-        *bind = bind_like(b, upright, n, joint, ROLE_PELVIS);
-    }
+    Mat3 *bind = &f->bind[foot].r;
+    if (rest->human) *bind = foot_from_rest(b, foot, rest->frame);
+    else if (!foot_from_frames(b, foot, bind)) *bind = bind_like(b, upright, n, joint, ROLE_PELVIS);
     f->bound[foot] = true;
-
-    int toe = f->roles.joint[foot + 1], flat[CHOSEN_MAX];
-    if (toe < 0 || f->toward[foot] < 0) return;
-    Mean mean = {{0, 0, 0, 0}, 0};
-    int nflat = choose_flat(b, joint, f->toward[foot], flat);
-    for (int i = 0; i < nflat; i++)
-        mean_add(&mean, mat_mul(mat_transpose(turn(b, flat[i], toe)), mat_mul(turn(b, flat[i], joint), *bind)));
-    f->bind[foot + 1].r = mean_of(&mean);
-    f->bound[foot + 1] = true;
+    bind_toe(b, foot, rest);
 }
 
 /* ---- */
 
 /* Puts the canonical point half-way between the starts of two bones where the two joints are
    on the mean, in the joint's frame. */
-static void anchor(const Binder *b, Role role, Role left, Role right) {
+static void anchor_torso(const Binder *b, Role role, Role left, Role right) {
     Figure *f = b->f;
     int joint = f->roles.joint[role];
     Vec3 sum = {0, 0, 0};
@@ -276,25 +199,39 @@ static void anchor(const Binder *b, Role role, Role left, Role right) {
     f->bound[role] = true;
 }
 
-void figure_bind(const Skeleton *skeleton, const Sample *sample, Figure *f) {
+/* The head joint of one rig is the skull's base, of another the middle of the neck. So the
+   joint's place counts as the base as far as it moves: on the mean over the upright frames the
+   canonical base is where the chest carries it. */
+static void anchor_head(const Binder *b, const int *frames, int n) {
+    Figure *f = b->f;
+    int head = f->roles.joint[ROLE_HEAD], chest = f->roles.joint[ROLE_CHEST];
+    Vec3 sum = {0, 0, 0}, base = f->start[ROLE_HEAD];
+    if (head < 0) return;
+    for (int i = 0; i < n; i++) {
+        Rigid carried = rigid_mul((Rigid){turn(b, frames[i], chest), place(b, frames[i], chest)}, f->bind[ROLE_CHEST]);
+        Rigid joint = {turn(b, frames[i], head), place(b, frames[i], head)};
+        sum = vec_add(sum, rigid_unapply(joint, rigid_apply(carried, base)));
+    }
+    f->bind[ROLE_HEAD].t = vec_sub(vec_scale(sum, 1.0 / n), mat_apply(f->bind[ROLE_HEAD].r, base));
+    f->bound[ROLE_HEAD] = true;
+}
+
+void figure_bind(const Skeleton *skeleton, const Sample *sample, const Rest *rest, Figure *f) {
     Binder b = {skeleton, sample, f};
     const int *j = f->roles.joint;
-    Mat3 zero;
-    bool human = zero_is_human(&b, &zero);
-    int upright[CHOSEN_MAX], n = choose_upright(&b, upright);
+    int upright[SAMPLE_BEST_MAX], n = choose_upright(&b, upright);
     for (int r = 0; r < ROLE_COUNT; r++) f->bind[r] = rigid_identity(), f->bound[r] = false;
-    if (human) {
-        f->bind[ROLE_PELVIS].r = f->bind[ROLE_CHEST].r = f->bind[ROLE_HEAD].r = zero;
-        f->rest = name_of_rest(&b, zero);
+    if (rest->human) {
+        f->bind[ROLE_PELVIS].r = f->bind[ROLE_CHEST].r = rest->frame;
+        if (j[ROLE_HEAD] >= 0) f->bind[ROLE_HEAD].r = head_from_rest(&b, upright, n, rest->frame);
     } else {
-        f->bind[ROLE_PELVIS].r = bind_from_line(&b, upright, n, j[ROLE_PELVIS], ROLE_RIGHT_THIGH, ROLE_LEFT_THIGH);
-        f->bind[ROLE_CHEST].r = bind_from_line(&b, upright, n, j[ROLE_CHEST], ROLE_RIGHT_UPPER_ARM, ROLE_LEFT_UPPER_ARM);
+        f->bind[ROLE_PELVIS].r = bind_from_line(&b, upright, n, j[ROLE_PELVIS], ROLE_RIGHT_THIGH, ROLE_LEFT_THIGH, 0.5);
+        f->bind[ROLE_CHEST].r = bind_from_line(&b, upright, n, j[ROLE_CHEST], ROLE_RIGHT_UPPER_ARM, ROLE_LEFT_UPPER_ARM, 0);
         if (j[ROLE_HEAD] >= 0) f->bind[ROLE_HEAD].r = bind_like(&b, upright, n, j[ROLE_HEAD], ROLE_CHEST);
-        f->rest = "upright frames";
     }
-    anchor(&b, ROLE_PELVIS, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH);
-    anchor(&b, ROLE_CHEST, ROLE_LEFT_UPPER_ARM, ROLE_RIGHT_UPPER_ARM);
-    f->bound[ROLE_HEAD] = j[ROLE_HEAD] >= 0;
-    bind_foot(&b, ROLE_LEFT_FOOT, human ? &zero : NULL, upright, n);
-    bind_foot(&b, ROLE_RIGHT_FOOT, human ? &zero : NULL, upright, n);
+    anchor_torso(&b, ROLE_PELVIS, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH);
+    anchor_torso(&b, ROLE_CHEST, ROLE_LEFT_UPPER_ARM, ROLE_RIGHT_UPPER_ARM);
+    anchor_head(&b, upright, n);
+    bind_foot(&b, ROLE_LEFT_FOOT, rest, upright, n);
+    bind_foot(&b, ROLE_RIGHT_FOOT, rest, upright, n);
 }

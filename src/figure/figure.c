@@ -7,8 +7,6 @@
 #include "figure/bind.h"
 #include "figure/measure.h"
 
-enum { SAMPLE_FRAMES = 64 };
-
 /* A bone may start this far (in heights) from its parent's end: joints whose distance varies
    do not tear the body apart. */
 static const double GAP = 0.05;
@@ -18,10 +16,11 @@ static const double POINTS = 0.15;
 bool figure_build(const Motion *m, const Roles *roles, const FigureOptions *options, Arena *scratch, Notes *notes,
                   Figure *out, Error *e) {
     Sample sample;
+    Rest rest;
     Figure f = {.roles = *roles};
-    if (!sample_read(m, SAMPLE_FRAMES, scratch, &sample, e)) return false;
-    if (!figure_measure(m, options, &sample, notes, &f, e)) return false;
-    figure_bind(&m->skeleton, &sample, &f);
+    if (!sample_read(m, SAMPLE_FRAMES_MAX, scratch, &sample, e)) return false;
+    if (!figure_measure(m, options, &sample, &rest, notes, &f, e)) return false;
+    figure_bind(&m->skeleton, &sample, &rest, &f);
     *out = f;
     return true;
 }
@@ -46,39 +45,40 @@ static Rigid placed(Mat3 r, Vec3 from, Vec3 to) { return (Rigid){r, vec_sub(to, 
 
 static void follow(const Poser *p, Role role, Role parent) { p->pose->bone[role] = p->pose->bone[parent]; }
 
-/* Turns with its joint, starts where `parent` says, within GAP of where the joint is. */
+/* `to`, or the point on the way there that is GAP from `from`. */
+static Vec3 not_far(const Poser *p, Vec3 from, Vec3 to) {
+    double size = vec_dist(from, to), most = GAP * p->f->height;
+    return vec_lerp(from, to, size > most ? most / size : 1);
+}
+
+/* Where a bone begins: at its joint, within GAP of where `parent` says. */
 static Vec3 start_of(const Poser *p, Role role, Role parent) {
     Vec3 expected = rigid_apply(p->pose->bone[parent], p->f->start[role]);
     int joint = p->f->roles.joint[role];
-    if (joint < 0) return expected;
-    Vec3 gap = vec_sub(point(p, joint), expected);
-    double size = vec_len(gap), most = GAP * p->f->height;
-    return vec_mad(expected, gap, size > most ? most / size : 1);
+    return joint < 0 ? expected : not_far(p, expected, point(p, joint));
 }
 
-/* Points from `start` to where the next joint is, by the smallest turn from `parent`. */
-static void point_bone(const Poser *p, Role role, Role parent, Vec3 start, int from) {
+/* `r`, turned by the smallest turn that makes the bone point along `now`. */
+static Mat3 point_along(const Figure *f, Role role, Mat3 r, Vec3 now) {
+    Vec3 bone = vec_sub(f->end[role], f->start[role]);
+    double length = vec_len(bone);
+    if (vec_len(now) <= POINTS * length || length == 0) return r;
+    Vec3 rest = mat_apply(r, vec_scale(bone, 1 / length));
+    return mat_mul(mat_between(rest, vec_unit_or(now, rest)), r);
+}
+
+/* A limb bone: starts where it begins, turned from `parent` towards the next joint. */
+static void pose_limb_bone(const Poser *p, Role role, Role begin, Role parent) {
     const Figure *f = p->f;
-    Vec3 along = vec_sub(f->end[role], f->start[role]);
+    Vec3 start = start_of(p, role, begin);
     Mat3 r = p->pose->bone[parent].r;
-    if (from >= 0 && f->toward[role] >= 0) {
-        Vec3 now = vec_sub(point(p, f->toward[role]), point(p, from));
-        if (vec_len(now) > POINTS * vec_len(along)) {
-            Vec3 rest = mat_apply(r, vec_unit_or(along, vec(0, 1, 0)));
-            r = mat_mul(mat_between(rest, vec_unit_or(now, rest)), r);
-        }
-    }
+    if (f->roles.joint[role] >= 0 && f->toward[role] >= 0)
+        r = point_along(f, role, r, vec_sub(point(p, f->toward[role]), point(p, f->roles.joint[role])));
     p->pose->bone[role] = placed(r, f->start[role], start);
 }
 
-static void pose_limb_bone(const Poser *p, Role role, Role parent) {
-    point_bone(p, role, parent, start_of(p, role, parent), p->f->roles.joint[role]);
-}
-
-static void pose_bound(const Poser *p, Role role, Role parent) {
-    if (!p->f->bound[role]) { follow(p, role, parent); return; }
-    Mat3 r = mat_mul(joint_in_world(p, p->f->roles.joint[role]).r, p->f->bind[role].r);
-    p->pose->bone[role] = placed(r, p->f->start[role], start_of(p, role, parent));
+static Mat3 bound_turn(const Poser *p, Role role) {
+    return mat_mul(joint_in_world(p, p->f->roles.joint[role]).r, p->f->bind[role].r);
 }
 
 /* Half-way between pelvis and chest in turn and place. */
@@ -91,46 +91,45 @@ static void pose_spine(const Poser *p) {
     p->pose->bone[ROLE_SPINE] = placed(r, middle, place);
 }
 
-/* From where the chest carries its base to where the head is. */
+/* The neck points from its base, which the chest carries, to the base of the skull. */
 static void pose_neck_and_head(const Poser *p) {
     const Figure *f = p->f;
-    Rigid chest = p->pose->bone[ROLE_CHEST], *neck = &p->pose->bone[ROLE_NECK], *head = &p->pose->bone[ROLE_HEAD];
-    Mat3 turned = chest.r;
-    if (f->bound[ROLE_HEAD]) turned = mat_mul(joint_in_world(p, f->roles.joint[ROLE_HEAD]).r, f->bind[ROLE_HEAD].r);
-    Quat between = quat_nlerp(quat_from_mat(chest.r), quat_from_mat(turned), 0.5);
-    *neck = placed(mat_from_quat(between), f->start[ROLE_NECK], rigid_apply(chest, f->start[ROLE_NECK]));
-    *head = placed(turned, f->start[ROLE_HEAD], rigid_apply(*neck, f->end[ROLE_NECK]));
+    Rigid chest = p->pose->bone[ROLE_CHEST];
+    Vec3 base = rigid_apply(chest, f->start[ROLE_NECK]);
+    if (!f->bound[ROLE_HEAD]) {
+        follow(p, ROLE_NECK, ROLE_CHEST);
+        follow(p, ROLE_HEAD, ROLE_CHEST);
+        return;
+    }
+    Rigid head = rigid_mul(joint_in_world(p, f->roles.joint[ROLE_HEAD]), f->bind[ROLE_HEAD]);
+    Vec3 skull = rigid_apply(head, f->start[ROLE_HEAD]);
+    Mat3 half = mat_from_quat(quat_nlerp(quat_from_mat(chest.r), quat_from_mat(head.r), 0.5));
+    Rigid neck = placed(point_along(f, ROLE_NECK, half, vec_sub(skull, base)), f->start[ROLE_NECK], base);
+    p->pose->bone[ROLE_NECK] = neck;
+    p->pose->bone[ROLE_HEAD] = placed(head.r, f->start[ROLE_HEAD], not_far(p, rigid_apply(neck, f->end[ROLE_NECK]), skull));
 }
 
 static void pose_arm(const Poser *p, Role clavicle) {
-    Vec3 start = rigid_apply(p->pose->bone[ROLE_CHEST], p->f->start[clavicle]);
     const Figure *f = p->f;
-    Vec3 shoulder = point(p, f->roles.joint[clavicle + 1]);
-    Mat3 r = p->pose->bone[ROLE_CHEST].r;
-    Vec3 rest = mat_apply(r, vec_sub(f->end[clavicle], f->start[clavicle])), now = vec_sub(shoulder, start);
-    if (vec_len(now) > POINTS * vec_len(rest)) {
-        rest = vec_unit_or(rest, vec(0, 1, 0));
-        r = mat_mul(mat_between(rest, vec_unit_or(now, rest)), r);
-    }
-    p->pose->bone[clavicle] = placed(r, f->start[clavicle], start);
-    for (Role role = clavicle + 1; role <= clavicle + 3; role++) {
-        /* The upper arm's turn is counted from the chest: the clavicle's is small and noisy. */
-        Vec3 at = start_of(p, role, role - 1);
-        point_bone(p, role, role == clavicle + 1 ? ROLE_CHEST : role - 1, at, f->roles.joint[role]);
-    }
+    Role upper = clavicle + 1, forearm = clavicle + 2, hand = clavicle + 3;
+    Vec3 start = rigid_apply(p->pose->bone[ROLE_CHEST], f->start[clavicle]);
+    Vec3 along = vec_sub(point(p, f->roles.joint[upper]), start);
+    p->pose->bone[clavicle] = placed(point_along(f, clavicle, p->pose->bone[ROLE_CHEST].r, along), f->start[clavicle], start);
+    /* The upper arm's turn is counted from the chest: the clavicle's is small and noisy. */
+    pose_limb_bone(p, upper, clavicle, ROLE_CHEST);
+    pose_limb_bone(p, forearm, upper, upper);
+    pose_limb_bone(p, hand, forearm, forearm);
 }
 
 static void pose_leg(const Poser *p, Role thigh) {
-    pose_limb_bone(p, thigh, ROLE_PELVIS);
-    pose_limb_bone(p, thigh + 1, thigh);
-    pose_bound(p, thigh + 2, thigh + 1);
-    if (p->f->bound[thigh + 3]) {
-        Mat3 r = mat_mul(joint_in_world(p, p->f->roles.joint[thigh + 3]).r, p->f->bind[thigh + 3].r);
-        Vec3 start = rigid_apply(p->pose->bone[thigh + 2], p->f->start[thigh + 3]);
-        p->pose->bone[thigh + 3] = placed(r, p->f->start[thigh + 3], start);
-    } else {
-        follow(p, thigh + 3, thigh + 2);
-    }
+    const Figure *f = p->f;
+    Role shin = thigh + 1, foot = thigh + 2, toe = thigh + 3;
+    pose_limb_bone(p, thigh, ROLE_PELVIS, ROLE_PELVIS);
+    pose_limb_bone(p, shin, thigh, thigh);
+    Mat3 r = f->bound[foot] ? bound_turn(p, foot) : p->pose->bone[shin].r;
+    p->pose->bone[foot] = placed(r, f->start[foot], start_of(p, foot, shin));
+    if (f->bound[toe]) r = bound_turn(p, toe);
+    p->pose->bone[toe] = placed(r, f->start[toe], rigid_apply(p->pose->bone[foot], f->end[foot]));
 }
 
 void figure_pose(const Figure *f, const Rigid *world, Pose *out) {

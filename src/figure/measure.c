@@ -6,9 +6,10 @@
 #include <stdlib.h>
 
 /* The reference adult, metres. */
-static const double STATURE = 1.70, ANKLE = 0.08, ABOVE_SHOULDERS = 0.315;
+static const double STATURE = 1.70, ABOVE_SHOULDERS = 0.315;
 static const double HIP_HEIGHT = 0.885, SHOULDER_HEIGHT = 1.385;
-static const Lengths adult = {0.176, 0.415, 0.39, 0.50, 0.34, 0.28, 0.25, 0.18};
+static const double SOLE = 0.012; /* below toe joint or tip, against thigh + shin + torso */
+static const Lengths adult = {0.176, 0.415, 0.39, 0.08, 0.50, 0.34, 0.28, 0.25, 0.18};
 
 /* ---- canonical stance ---- */
 
@@ -20,14 +21,14 @@ static void set_pair(Figure *f, Role left, Role right, Vec3 start, Vec3 end) {
 }
 
 void figure_shape(double k, const Lengths *l, Figure *f) {
-    double hip_y = k * ANKLE + l->shin + l->thigh, shoulder_y = hip_y + l->torso;
+    double hip_y = l->ankle + l->shin + l->thigh, shoulder_y = hip_y + l->torso;
     double t = l->torso / (SHOULDER_HEIGHT - HIP_HEIGHT); /* stretches the spine */
     Vec3 at[6] = {{0, hip_y, 0}, {0, hip_y + 0.115 * t, -0.01 * k}, {0, hip_y + 0.285 * t, -0.01 * k},
                   {0, shoulder_y + 0.045 * k, -0.01 * k}, {0, shoulder_y + 0.135 * k, 0.01 * k},
                   {0, shoulder_y + ABOVE_SHOULDERS * k, 0.01 * k}};
     for (int r = ROLE_PELVIS; r <= ROLE_HEAD; r++) f->start[r] = at[r], f->end[r] = at[r + 1];
 
-    Vec3 hip = vec(l->hips / 2, hip_y, 0), knee = vec(hip.x, k * ANKLE + l->shin, 0), ankle = vec(hip.x, k * ANKLE, 0);
+    Vec3 hip = vec(l->hips / 2, hip_y, 0), knee = vec(hip.x, l->ankle + l->shin, 0), ankle = vec(hip.x, l->ankle, 0);
     Vec3 ball = vec(hip.x, 0.02 * k, 0.13 * k), tip = vec(hip.x, 0.02 * k, 0.20 * k);
     set_pair(f, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH, hip, knee);
     set_pair(f, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN, knee, ankle);
@@ -66,9 +67,10 @@ static Vec3 axis_of(char up) {
     return vec(axis == 'x' ? sign : 0, axis == 'y' ? sign : 0, axis == 'z' ? sign : 0);
 }
 
-/* The axis nearest to the mean of hips -> shoulders and ankles -> hips. People who lie for the
-   whole take would decide wrongly, so the common axes have a head start. */
-static char find_up(const Sample *s, const Figure *figure) {
+/* The axis nearest to the mean of hips -> shoulders and, less, ankles -> hips (sitters stretch
+   their legs). People who bow or lie for the whole take would decide wrongly, so the axis that
+   is up in a human zero pose, else y and then z, has a head start. */
+static char find_up(const Sample *s, const Figure *figure, const Rest *rest) {
     const int *j = figure->roles.joint;
     int left = figure->toward[ROLE_LEFT_SHIN], right = figure->toward[ROLE_RIGHT_SHIN];
     if (left < 0 || right < 0) left = j[ROLE_LEFT_SHIN], right = j[ROLE_RIGHT_SHIN];
@@ -77,12 +79,15 @@ static char find_up(const Sample *s, const Figure *figure) {
         Vec3 hips = between(s, f, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]);
         Vec3 chest = vec_sub(between(s, f, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]), hips);
         Vec3 legs = vec_sub(hips, between(s, f, left, right));
-        sum = vec_add(sum, vec_add(vec_unit_or(chest, vec(0, 0, 0)), vec_unit_or(legs, vec(0, 0, 0))));
+        sum = vec_add(sum, vec_unit_or(chest, vec(0, 0, 0)));
+        sum = vec_mad(sum, vec_unit_or(legs, vec(0, 0, 0)), 0.7);
     }
     double best = -1;
     char up = 'y';
     for (const char *c = "yzxYZX"; *c; c++) {
-        double score = vec_dot(axis_of(*c), sum) / s->count / 2 + (*c == 'y' ? 0.15 : *c == 'z' ? 0.05 : 0);
+        double score = vec_dot(axis_of(*c), sum) / s->count / 1.7;
+        if (rest->human) score += vec_dot(axis_of(*c), mat_column(rest->frame, 1)) > 0.9 ? 0.2 : 0;
+        else score += *c == 'y' ? 0.15 : *c == 'z' ? 0.05 : 0;
         if (score > best) best = score, up = *c;
     }
     return up;
@@ -104,12 +109,10 @@ static int compare(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-enum { FRAMES_MAX = 256 };
-
 /* Distance between two joints at a quantile of the frames; 0 where one is missing. */
 static double distance_at(const Sample *s, double quantile, int a, int b) {
-    double d[FRAMES_MAX];
-    int n = s->count < FRAMES_MAX ? s->count : FRAMES_MAX;
+    double d[SAMPLE_FRAMES_MAX];
+    int n = s->count;
     if (a < 0 || b < 0) return 0;
     for (int f = 0; f < n; f++) d[f] = vec_dist(sample_point(s, f, a), sample_point(s, f, b));
     qsort(d, (size_t)n, sizeof d[0], compare);
@@ -122,20 +125,47 @@ static double bone_length(const Sample *s, const Figure *f, Role left, Role righ
                   distance_at(s, 0.5, f->roles.joint[right], f->toward[right]));
 }
 
-/* Hips to shoulders with a straight back: a bent one is shorter, so not the median. */
-static double torso_length(const Sample *s, const Roles *r) {
-    double d[FRAMES_MAX];
-    int n = s->count < FRAMES_MAX ? s->count : FRAMES_MAX;
-    for (int f = 0; f < n; f++)
-        d[f] = vec_dist(between(s, f, r->joint[ROLE_LEFT_THIGH], r->joint[ROLE_RIGHT_THIGH]),
-                        between(s, f, r->joint[ROLE_LEFT_UPPER_ARM], r->joint[ROLE_RIGHT_UPPER_ARM]));
-    qsort(d, (size_t)n, sizeof d[0], compare);
-    return d[(int)(0.75 * (n - 1))];
-}
-
 /* The measured length where it is between low and high times the usual, else the usual. */
 static double sane(double measured, double usual, double low, double high) {
     return measured >= low * usual && measured <= high * usual ? measured : usual;
+}
+
+/* Hips to shoulders with a straight back: in a human zero pose, unless the frames say quite
+   another length; else in the straighter frames. */
+static double torso_length(const Skeleton *skeleton, const Sample *s, const Rest *rest, const Roles *r) {
+    const int *j = r->joint;
+    double d[SAMPLE_FRAMES_MAX];
+    for (int f = 0; f < s->count; f++)
+        d[f] = vec_dist(between(s, f, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]),
+                        between(s, f, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]));
+    qsort(d, (size_t)s->count, sizeof d[0], compare);
+    double moving = d[(int)(0.75 * (s->count - 1))];
+    if (!rest->human) return moving;
+    Vec3 hips = vec_mid(rest_place(skeleton, j[ROLE_LEFT_THIGH]), rest_place(skeleton, j[ROLE_RIGHT_THIGH]));
+    Vec3 arms = vec_mid(rest_place(skeleton, j[ROLE_LEFT_UPPER_ARM]), rest_place(skeleton, j[ROLE_RIGHT_UPPER_ARM]));
+    return sane(vec_dist(hips, arms), moving, 0.85, 1.15);
+}
+
+/* Height of the ankle over the lowest point of the foot where the foot is flat: in a human
+   zero pose, else in the frames in which it is lowest. Negative where the foot has no end. */
+static double ankle_height(const Skeleton *skeleton, const Sample *s, const Rest *rest, const Figure *f, Role foot) {
+    int ankle = f->roles.joint[foot], tip = f->toward[foot], toe = f->roles.joint[foot + 1], frames[SAMPLE_BEST_MAX];
+    if (ankle < 0 || tip < 0) return -1;
+    if (toe < 0) toe = tip;
+    if (rest->human) {
+        Vec3 up = mat_column(rest->frame, 1), from = rest_place(skeleton, ankle);
+        return fmax(vec_dot(up, vec_sub(from, rest_place(skeleton, tip))),
+                    vec_dot(up, vec_sub(from, rest_place(skeleton, toe))));
+    }
+    int n = sample_lowest(s, f->upright, ankle, tip, frames);
+    Vec3 up = mat_apply(mat_transpose(f->upright), vec(0, 1, 0));
+    double sum = 0;
+    for (int i = 0; i < n; i++) {
+        Vec3 from = sample_point(s, frames[i], ankle);
+        sum += fmax(vec_dot(up, vec_sub(from, sample_point(s, frames[i], tip))),
+                    vec_dot(up, vec_sub(from, sample_point(s, frames[i], toe)))) / n;
+    }
+    return sum;
 }
 
 /* ---- unit ---- */
@@ -168,6 +198,24 @@ static void find_unit(double stature, double file_unit, Figure *f) {
 
 /* ---- */
 
+/* The hand points to what lies farthest along the forearm below it, on the mean: a finger, not
+   the thumb. */
+static void find_fingertip(const Skeleton *skeleton, const Sample *s, Figure *f, Role hand) {
+    int wrist = f->roles.joint[hand], elbow = f->roles.joint[hand - 1];
+    double farthest = 0;
+    for (int j = wrist + 1; wrist >= 0 && j < skeleton->njoints; j++) {
+        int k = j;
+        while (k > wrist) k = skeleton->joint[k].parent;
+        if (k != wrist) continue;
+        double sum = 0;
+        for (int i = 0; i < s->count; i++) {
+            Vec3 at = sample_point(s, i, wrist), forearm = vec_sub(at, sample_point(s, i, elbow));
+            sum += vec_dot(vec_unit_or(forearm, vec(0, 0, 0)), vec_sub(sample_point(s, i, j), at));
+        }
+        if (sum > farthest * (1 + 1e-9)) farthest = sum, f->toward[hand] = j;
+    }
+}
+
 /* The joint or end site that each bone points to. */
 static void find_ends(const Skeleton *skeleton, const Sample *s, Figure *f) {
     static const Role next[ROLE_COUNT] = {
@@ -179,25 +227,30 @@ static void find_ends(const Skeleton *skeleton, const Sample *s, Figure *f) {
         [ROLE_LEFT_SHIN] = ROLE_LEFT_FOOT, [ROLE_RIGHT_SHIN] = ROLE_RIGHT_FOOT,
     };
     static const Role tips[] = {ROLE_LEFT_FOREARM, ROLE_RIGHT_FOREARM, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN,
-                                ROLE_LEFT_HAND, ROLE_RIGHT_HAND, ROLE_LEFT_FOOT, ROLE_RIGHT_FOOT};
+                                ROLE_LEFT_FOOT, ROLE_RIGHT_FOOT};
     for (int r = 0; r < ROLE_COUNT; r++) f->toward[r] = next[r] ? f->roles.joint[next[r]] : -1;
     for (size_t i = 0; i < sizeof tips / sizeof tips[0]; i++)
         if (f->toward[tips[i]] < 0 && f->roles.joint[tips[i]] >= 0)
             f->toward[tips[i]] = sample_tip(s, skeleton, f->roles.joint[tips[i]]);
+    find_fingertip(skeleton, s, f, ROLE_LEFT_HAND);
+    find_fingertip(skeleton, s, f, ROLE_RIGHT_HAND);
 }
 
-bool figure_measure(const Motion *m, const FigureOptions *options, const Sample *s, Notes *notes, Figure *f, Error *e) {
+bool figure_measure(const Motion *m, const FigureOptions *options, const Sample *s, Rest *rest, Notes *notes,
+                    Figure *f, Error *e) {
     if (options->up && (options->up < 'X' || options->up > 'z' || (options->up > 'Z' && options->up < 'x')))
         return error_set(e, ERR_USAGE, "no such up axis '%c': x, y, z, X, Y or Z", options->up);
     find_ends(&m->skeleton, s, f);
-    f->up = options->up ? options->up : find_up(s, f);
+    *rest = rest_find(&m->skeleton, f);
+    f->rest = rest->name;
+    f->up = options->up ? options->up : find_up(s, f, rest);
     f->upright = upright_of(f->up);
 
     Lengths l = {
         .hips = distance_at(s, 0.5, f->roles.joint[ROLE_LEFT_THIGH], f->roles.joint[ROLE_RIGHT_THIGH]),
         .thigh = bone_length(s, f, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH),
         .shin = bone_length(s, f, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN),
-        .torso = torso_length(s, &f->roles),
+        .torso = torso_length(&m->skeleton, s, rest, &f->roles),
         .shoulders = distance_at(s, 0.5, f->roles.joint[ROLE_LEFT_UPPER_ARM], f->roles.joint[ROLE_RIGHT_UPPER_ARM]),
         .upper_arm = bone_length(s, f, ROLE_LEFT_UPPER_ARM, ROLE_RIGHT_UPPER_ARM),
         .forearm = bone_length(s, f, ROLE_LEFT_FOREARM, ROLE_RIGHT_FOREARM),
@@ -205,6 +258,9 @@ bool figure_measure(const Motion *m, const FigureOptions *options, const Sample 
     };
     double known = l.thigh + l.shin + l.torso;
     if (!(known > 1e-12 && known < 1e12)) return error_set(e, ERR_INPUT, "skeleton of no size in '%s'", m->path);
+    double left = ankle_height(&m->skeleton, s, rest, f, ROLE_LEFT_FOOT);
+    double right = ankle_height(&m->skeleton, s, rest, f, ROLE_RIGHT_FOOT);
+    l.ankle = left >= 0 && right >= 0 ? 0.5 * (left + right) + SOLE * known : 0;
     /* Stature in units of the reference adult, then every length against its part of it. */
     double k = known / (adult.thigh + adult.shin + adult.torso);
     find_unit(k * STATURE, m->file_unit, f);
@@ -217,7 +273,9 @@ bool figure_measure(const Motion *m, const FigureOptions *options, const Sample 
     k *= u;
     Lengths in_metres = {
         sane(l.hips * u, adult.hips * k, 0.5, 1.7), sane(l.thigh * u, adult.thigh * k, 0.5, 1.6),
-        sane(l.shin * u, adult.shin * k, 0.5, 1.6), sane(l.torso * u, adult.torso * k, 0.5, 1.6),
+        sane(l.shin * u, adult.shin * k, 0.5, 1.6),
+        clamp(l.ankle > 0 ? l.ankle * u : adult.ankle * k, 0.5 * adult.ankle * k, 1.6 * adult.ankle * k),
+        sane(l.torso * u, adult.torso * k, 0.5, 1.6),
         sane(l.shoulders * u, adult.shoulders * k, 0.6, 1.6), sane(l.upper_arm * u, adult.upper_arm * k, 0.5, 1.6),
         sane(l.forearm * u, adult.forearm * k, 0.5, 1.6), sane(l.hand * u, adult.hand * k, 0.75, 1.25),
     };

@@ -16,6 +16,7 @@ MUST_CHECK static bool read_rows(const Motion *m, MotionReader *reader, int coun
 bool sample_read(const Motion *m, int wanted, Arena *arena, Sample *out, Error *e) {
     int first = m->nframes >= FIRST_FRAME_HAS_NO_VOTE_FROM ? 1 : 0, n = m->nframes - first;
     int count = wanted < n ? wanted : n;
+    if (count > SAMPLE_FRAMES_MAX) count = SAMPLE_FRAMES_MAX;
     long most = TRANSFORMS_MAX / (m->skeleton.njoints + 1) + 1;
     if (count > most) count = (int)most;
 
@@ -38,6 +39,26 @@ double sample_distance(const Sample *s, int a, int b) {
     double sum = 0;
     for (int i = 0; i < s->count; i++) sum += vec_dist(sample_point(s, i, a), sample_point(s, i, b));
     return s->count ? sum / s->count : 0;
+}
+
+int sample_best(const Sample *s, const double *score, int out[SAMPLE_BEST_MAX]) {
+    int count = 0, most = s->count / 4 < 1 ? 1 : s->count / 4;
+    for (int i = 0; i < s->count; i++) {
+        int k = count;
+        if (k < most) count++;
+        else if (score[i] > score[out[most - 1]]) k = most - 1;
+        else continue;
+        for (; k > 0 && score[out[k - 1]] < score[i]; k--) out[k] = out[k - 1];
+        out[k] = i;
+    }
+    return count;
+}
+
+int sample_lowest(const Sample *s, Mat3 upright, int a, int b, int out[SAMPLE_BEST_MAX]) {
+    double score[SAMPLE_FRAMES_MAX];
+    for (int i = 0; i < s->count; i++)
+        score[i] = -mat_apply(upright, vec_add(sample_point(s, i, a), sample_point(s, i, b))).y;
+    return sample_best(s, score, out);
 }
 
 int sample_tip(const Sample *s, const Skeleton *skeleton, int joint) {
