@@ -1,10 +1,13 @@
 /* kitsuke inspect: what is in a file, as it was understood. The same readers as `dress` look
    at it, so what is printed here is what will be dressed. What a file is follows from its
    first word, not from its name. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "app/commands.h"
-#include "figure/figure.h"
+#include "app/take.h"
+
+enum { MODEL_FILE_MAX = 1 << 20 };
 
 /* Names with commas or quotes are quoted as CSV asks for. */
 static void print_field(const char *text) {
@@ -54,6 +57,20 @@ static void print_warnings(const Notes *notes) {
     if (notes->count > NOTES_MAX) printf("  warning     %d more warnings\n", notes->count - NOTES_MAX);
 }
 
+/* The habit of naming joints, by a part of a name that gives it away. For the reader only: roles
+   are found without it. */
+static const char *naming(const Skeleton *s) {
+    static const struct { const char *sign, *family; } families[] = {
+        {"mixamorig", "Mixamo"},       {"Bip0", "3ds Max Biped"},     {"lfemur", "CMU Acclaim"},   {"lShldr", "Poser and Daz"},
+        {"LHipJoint", "CMU"},          {"joint_Root", "Bandai-Namco"}, {"upperleg01", "MakeHuman"}, {"LeftInHand", "Rokoko and Neuron"},
+        {"J_Bip", "VRM"},              {"_jnt", "Maya rig"},          {"LeftUpLeg", "MotionBuilder"}, {"thigh_l", "Unreal"},
+        {"LeftCollar", "collar, shoulder, elbow, wrist"}, {"LeftKnee", "hip, knee, ankle"}};
+    for (size_t i = 0; i < sizeof families / sizeof families[0]; i++)
+        for (int j = 0; j < s->njoints; j++)
+            if (strstr(s->joint[j].name, families[i].sign)) return families[i].family;
+    return "of no known family";
+}
+
 static void print_motion(const Motion *m) {
     const Skeleton *s = &m->skeleton;
     int ends = 0, moved = 0;
@@ -67,6 +84,7 @@ static void print_motion(const Motion *m) {
     }
     printf("%s: %s motion\n", m->path, m->format);
     printf("  joints      %d and %d end sites, %d channels\n", s->njoints - ends, ends, s->nchannels);
+    printf("  names       %s\n", naming(s));
     printf("  positions   channels of %d joint%s %s the OFFSET\n", moved, moved == 1 ? "" : "s", s->position_adds ? "add to" : "replace");
     printf("  frames      %d\n", m->nframes);
     printf("  rate        %.6g a second%s, %.6g s in all\n", 1 / m->frame_time, m->has_frame_time ? "" : " (assumed)",
@@ -86,6 +104,18 @@ static void print_figure(const Motion *m, const Figure *f) {
     }
 }
 
+/* Goes through all frames, for the jumps between them. */
+static bool look_for_jumps(const Motion *m, const Figure *f, Arena *arena, Notes *notes, Error *e) {
+    Take *take = NULL;
+    TakeFrame frame;
+    FrameSpan all = {0};
+    bool good = take_open(m, f, &all, 0, arena, &take, e);
+    while (good && take_next(take, &frame, e)) continue;
+    if (good) take_notes(take, notes);
+    take_close(take);
+    return good && e->kind == ERR_NONE;
+}
+
 static bool inspect_figure(const Motion *m, const Settings *s, Arena *arena, Notes *notes, Error *e) {
     Roles roles;
     Figure figure;
@@ -98,7 +128,7 @@ static bool inspect_figure(const Motion *m, const Settings *s, Arena *arena, Not
     }
     if (!figure_build(m, &roles, &options, arena, notes, &figure, e)) return false;
     print_figure(m, &figure);
-    return true;
+    return look_for_jumps(m, &figure, arena, notes, e);
 }
 
 static bool inspect_motion(const char *path, const Settings *s, Arena *arena, Error *e) {
@@ -118,6 +148,104 @@ static bool inspect_motion(const char *path, const Settings *s, Arena *arena, Er
     return good;
 }
 
+/* Writes a model to memory; NULL where memory is exhausted. The caller frees it. */
+typedef bool WriteModel(const void *model, FILE *out);
+
+static bool write_garment(const void *model, FILE *out) { return garment_write(model, out); }
+static bool write_body(const void *model, FILE *out) { return body_write(model, out); }
+
+static char *text_of(const void *model, WriteModel *write, size_t *size) {
+    char *text = NULL;
+    FILE *out = open_memstream(&text, size);
+    if (!out) return NULL;
+    bool good = write(model, out);
+    if (fclose(out) == 0 && good) return text;
+    free(text);
+    return NULL;
+}
+
+/* Reads what was written from `model` into `again` and compares what that writes. */
+static void print_round_trip(const Text *source, const void *model, bool (*parse)(const Text *, void *, Error *), void *again,
+                             WriteModel *write) {
+    Error wrong = {0};
+    size_t size = 0, size_again = 0;
+    char *text = text_of(model, write, &size), *text_again = NULL;
+    Text written = {source->name, text, size};
+    printf("  bytes       %zu in the file\n", source->size);
+    if (text && parse(&written, again, &wrong)) text_again = text_of(again, write, &size_again);
+    bool same = text_again && size == size_again && memcmp(text, text_again, size) == 0;
+    if (same) printf("  round trip  same, %zu bytes when written\n", size);
+    else printf("  round trip  differs%s%s\n", wrong.kind ? ": " : "", wrong.text);
+    free(text);
+    free(text_again);
+}
+
+static bool parse_garment(const Text *text, void *out, Error *e) { return garment_parse(text, out, e); }
+static bool parse_body(const Text *text, void *out, Error *e) { return body_parse(text, out, e); }
+
+static void print_garment(const char *path, const Garment *g, const DresserInfo *info) {
+    printf("%s: garment %s\n", path, g->name);
+    printf("  follows     %s, %s\n", g->follow == FOLLOW_BONES ? "bones" : "envelope", g->loose ? "loose" : "tight");
+    printf("  patches     %d\n  panels      %d and %d raw patch%s\n", info->patches, g->npanels, g->npatches, g->npatches == 1 ? "" : "es");
+    for (int i = 0; i < g->npanels; i++) printf("    %-18s %d rows\n", g->panel[i].name, g->panel[i].nrows);
+    for (int i = 0; i < g->npatches; i++) printf("    %-18s raw\n", g->patch[i].name);
+    printf("  rings       %d\n  seams       %d\n  openings    %d\n  collides   ", g->nrings, g->nseams, info->openings);
+    for (int r = 0; r < ROLE_COUNT; r++)
+        if (info->own_parts >> r & 1) printf(" %s", role_name((Role)r));
+    printf("\n");
+}
+
+/* Fits the garment to the reference figure, which proves its seams and openings. */
+static bool inspect_garment(const Text *text, Arena *arena, Error *e) {
+    Garment *g = ARENA_NEW(arena, Garment, 2, e);
+    Body *body = ARENA_NEW(arena, Body, 1, e);
+    Figure *figure = ARENA_NEW(arena, Figure, 1, e);
+    DressOptions options = {0};
+    Dresser *dresser;
+    if (!g || !body || !figure || !garment_parse(text, g, e)) return false;
+    *figure = figure_reference();
+    if (!body_fit(body_default(), figure, 16, arena, body, e) || !dresser_open(g, figure, body, &options, arena, &dresser, e)) return false;
+    DresserInfo info = dresser_info(dresser);
+    print_garment(text->name, g, &info);
+    print_round_trip(text, g, parse_garment, g + 1, write_garment);
+    return true;
+}
+
+static bool inspect_body(const Text *text, Arena *arena, Error *e) {
+    BodySpec *spec = ARENA_NEW(arena, BodySpec, 2, e);
+    Body *body = ARENA_NEW(arena, Body, 1, e);
+    Figure *figure = ARENA_NEW(arena, Figure, 1, e);
+    if (!spec || !body || !figure || !body_parse(text, spec, e)) return false;
+    *figure = figure_reference();
+    if (!body_fit(spec, figure, 16, arena, body, e)) return false;
+    printf("%s: body %s\n  parts       %d\n", text->name, spec->name, spec->nparts);
+    for (int i = 0; i < spec->nparts; i++) printf("    %-18s %d sections\n", role_name(spec->part[i].role), spec->part[i].nsections);
+    printf("  skin        %d patches, as a mesh %d vertices and %d triangles\n", body->npatches, body->skin.nvertices, body->skin.ntriangles);
+    print_round_trip(text, spec, parse_body, spec + 1, write_body);
+    return true;
+}
+
+/* The first word of a text file that is no comment: "garment", "body", "HIERARCHY", ... */
+static void first_word(const char *path, char word[16]) {
+    FILE *f = strcmp(path, "-") == 0 ? NULL : fopen(path, "r");
+    word[0] = 0;
+    for (int lines = 0; f && lines < 1000 && fscanf(f, "%15s", word) == 1 && word[0] == '#'; lines++) {
+        word[0] = 0;
+        for (int c; (c = fgetc(f)) != EOF && c != '\n';) continue;
+    }
+    if (f) fclose(f);
+}
+
+static bool inspect(const char *path, const Settings *s, Arena *arena, Error *e) {
+    char word[16];
+    Text text;
+    first_word(path, word);
+    bool is_garment = strcmp(word, "garment") == 0, is_body = strcmp(word, "body") == 0;
+    if (s->joints || (!is_garment && !is_body)) return inspect_motion(path, s, arena, e);
+    if (!text_read(path, MODEL_FILE_MAX, arena, &text, e)) return false;
+    return is_garment ? inspect_garment(&text, arena, e) : inspect_body(&text, arena, e);
+}
+
 ErrorKind cmd_inspect(const Settings *s, Error *e) {
     ErrorKind worst = ERR_NONE;
     if (s->inputs.count == 0) return error_set(e, ERR_USAGE, "nothing to inspect: name a motion, garment or body file"), ERR_USAGE;
@@ -125,11 +253,12 @@ ErrorKind cmd_inspect(const Settings *s, Error *e) {
     for (int i = 0; i < s->inputs.count; i++) {
         Arena arena = {0};
         Error wrong = {0};
-        if (i) putchar('\n');
-        if (!inspect_motion(s->inputs.item[i], s, &arena, &wrong)) {
+        if (!inspect(s->inputs.item[i], s, &arena, &wrong)) {
             fflush(stdout);
             error_print(&wrong, stderr);
             if (wrong.kind > worst) worst = wrong.kind;
+        } else if (i + 1 < s->inputs.count) {
+            putchar('\n');
         }
         arena_free(&arena);
     }
