@@ -4,48 +4,136 @@ VERSION = 0.1.0
 BUILD  ?= release
 PREFIX ?= /usr/local
 CC     ?= cc
-CXX    ?= c++
+# A C compiler asks for its own C++ compiler: the sanitizers of two do not mix.
+ifeq ($(origin CXX),default)
+CXX     = $(if $(findstring clang,$(CC)),$(subst clang,clang++,$(CC)),c++)
+endif
 
 WARN   = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wundef -Wwrite-strings
 CWARN  = $(WARN) -Wstrict-prototypes -Wmissing-prototypes -Wvla
+SAN    = -g -DVALIDATE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 FLAGS_release = -O3
 FLAGS_debug   = -O0 -g -DVALIDATE
-FLAGS_san     = -O1 -g -DVALIDATE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+FLAGS_san     = -O1 $(SAN)
+FLAGS_fuzz    = -O1 $(SAN) -fsanitize=fuzzer-no-link
 MODE   = $(FLAGS_$(BUILD))
 ifeq ($(MODE),)
 $(error BUILD must be release, debug or san, not '$(BUILD)')
 endif
+# Same bytes from every build and compiler: no contraction to FMA, no fast-math, no -march.
 ALL_CFLAGS   = -std=c11 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -pthread $(CWARN) $(MODE) $(CFLAGS)
 ALL_CXXFLAGS = -std=c++17 -ffp-contract=off -Wall -Wextra $(MODE) $(CXXFLAGS)
 ALL_CPPFLAGS = -iquote include -DKITSUKE_VERSION='"$(VERSION)"' $(CPPFLAGS)
-LIBS   = -ldraco -lstdc++ -lm -pthread
+LIBS   = -ldraco -lm -pthread
 
 OUT    = build/$(BUILD)
 SRC    = $(wildcard src/*/*.c src/*/*.cpp)
-OBJ    = $(patsubst src/%,$(OUT)/%.o,$(SRC))
+OBJ    = $(SRC:src/%=$(OUT)/%.o)
 CORE   = $(filter-out $(OUT)/app/main.c.o,$(OBJ))
 UNIT   = $(patsubst tests/%.c,$(OUT)/%.t,$(wildcard tests/unit_*.c))
+SCRIPT = $(filter-out tests/lib.sh tests/bench.sh,$(wildcard tests/*.sh))
+FUZZ   = $(patsubst tests/fuzz/%.c,$(OUT)/%,$(wildcard tests/fuzz/fuzz_*.c))
+LINT   = $(patsubst src/%,build/lint/%.ok,$(filter %.c,$(SRC)))
+SHOW   = motions/paper-walk.bvh --garment garments/skirt.garment
 
 all: build/$(NAME)				## build the program (BUILD=release|debug|san)
 
-build/$(NAME): $(OUT)/$(NAME)
-	cp -f $< $@
-$(OUT)/$(NAME): $(OBJ)
-	$(CC) $(MODE) $(LDFLAGS) $^ $(LIBS) -o $@
-$(OUT)/%.c.o: src/%.c
+build/$(NAME): $(OUT)/$(NAME) FORCE
+	@cmp -s $< $@ || { cp $< $@.new && mv $@.new $@; }
+$(OUT)/$(NAME): $(OBJ) | build/deps
+	$(CXX) $(MODE) $(LDFLAGS) $(OBJ) $(LIBS) -o $@
+$(OUT)/%.c.o: src/%.c $(OUT)/flags
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) -MMD -MP -c $< -o $@
-$(OUT)/%.cpp.o: src/%.cpp
+$(OUT)/%.cpp.o: src/%.cpp $(OUT)/flags | build/deps
 	@mkdir -p $(@D)
 	$(CXX) $(ALL_CPPFLAGS) $(ALL_CXXFLAGS) -MMD -MP -c $< -o $@
-$(OUT)/core.a: $(CORE)
+$(OUT)/core.a: $(CORE) $(OUT)/sources
 	@rm -f $@
-	ar rcs $@ $^
-$(OUT)/%.t: tests/%.c $(OUT)/core.a
-	$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $< $(OUT)/core.a $(LIBS) -o $@
+	ar rcs $@ $(CORE)
+$(OUT)/%.t.o: tests/%.c $(OUT)/flags
+	$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) -MMD -MP -c $< -o $@
+$(OUT)/%.t: $(OUT)/%.t.o $(OUT)/core.a | build/deps
+	$(CXX) $(MODE) $(LDFLAGS) $^ $(LIBS) -o $@
 
+# Two texts that are only touched when they change, so that other flags, another version or
+# another list of sources build what they must. -Werror changes no object.
+$(OUT)/flags: TEXT = $(filter-out -Werror,$(CC) $(CXX) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(ALL_CXXFLAGS))
+$(OUT)/sources: TEXT = $(SRC)
+$(OUT)/flags $(OUT)/sources: FORCE
+	@mkdir -p $(@D)
+	@echo '$(subst ','\'',$(TEXT))' | cmp -s - $@ || echo '$(subst ','\'',$(TEXT))' > $@
+
+# What is needed beyond a C compiler is looked for once. Where the user said no more than
+# `make demo` or `make test` it may be installed; DEPS=no forbids that.
+DEPS ?= $(if $(filter demo test check bench fuzz,$(MAKECMDGOALS)),yes,no)
+build/deps:
+	@mkdir -p $(@D)
+	@DEPS='$(DEPS)' CXX='$(CXX)' FLAGS='$(CPPFLAGS) $(LDFLAGS)' sh .ci/deps.sh draco
+	@touch $@
+build/deps-test: | build/deps
+	@DEPS='$(DEPS)' sh .ci/deps.sh prove
+	@touch $@
+
+demo: all					## dress the walk of the paper in a skirt, into build/demo
+	build/$(NAME) dress $(SHOW) --output build/demo --force
+	@echo 'Look at build/demo/paper-walk: skirt.*.obj and body.*.obj open in any 3D viewer, stats.csv in any spreadsheet.'
+
+JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
+test: $(OUT)/$(NAME) $(UNIT) build/deps-test	## unit programs and shell tests, through prove
+	@KITSUKE='$(CURDIR)/$(OUT)/$(NAME)' KITSUKE_BUILD=$(BUILD) ASAN_OPTIONS=exitcode=99 \
+	UBSAN_OPTIONS=exitcode=99:print_stacktrace=1 prove -j$(JOBS) -e '' $(sort $(UNIT) $(SCRIPT))
+
+check:						## test all three builds, and compare the bytes they write
+	for b in release debug san; do $(MAKE) BUILD=$$b test || exit 1; rm -rf build/check/$$b; \
+	build/$$b/$(NAME) dress $(SHOW) --frames 1:6 --no-times --quiet --output build/check/$$b || exit 1; done
+	diff -r build/check/release build/check/debug
+	diff -r build/check/release build/check/san
+	@echo 'release, debug and san write the same bytes'
+
+bench: all					## time the stages on the walk of the paper
+	KITSUKE='$(CURDIR)/build/$(NAME)' sh tests/bench.sh
+
+lint: $(LINT)					## compiler warnings as errors, gcc -fanalyzer, the rules of the house
+	sh .ci/lint.sh
+# gcc 12's analyzer loses structs that are returned by value and calls them uninitialized.
+ANALYZE = $(if $(findstring clang,$(CC)),,-fanalyzer -Wno-analyzer-use-of-uninitialized-value)
+build/lint/%.c.ok: src/%.c Makefile
+	@mkdir -p $(@D)
+	$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) -O1 -Werror $(ANALYZE) -MMD -MP -MT $@ -MF $@.d -c $< -o /dev/null
+	@touch $@
+
+# The replay feeds every sample whole, cut at every byte and with bytes changed. FUZZ_SECONDS
+# with CC=clang goes on searching with libFuzzer, as long for each target.
+fuzz:						## feed damaged files to every reader (CC=clang FUZZ_SECONDS=60: search for more)
+	$(MAKE) BUILD=$(if $(FUZZ_SECONDS),fuzz,san) fuzz-run
+fuzz-run: $(FUZZ)
+	@for f in $(FUZZ); do t=$${f##*/fuzz_}; echo "$$t:"; $(if $(FUZZ_SECONDS),mkdir -p build/corpus/$$t; \
+	$$f -max_total_time=$(FUZZ_SECONDS) build/corpus/$$t tests/fuzz/seeds/$$t,$$f tests/fuzz/seeds/$$t/*) || exit 1; done
+$(OUT)/fuzz_%: tests/fuzz/fuzz_%.c $(if $(FUZZ_SECONDS),,tests/fuzz/replay.c) $(OUT)/core.a | build/deps
+	$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(if $(FUZZ_SECONDS),-fsanitize=fuzzer) $(LDFLAGS) $^ $(LIBS) -lstdc++ -o $@
+
+format:						## clang-format over the .c files (headers are set by hand)
+	clang-format -i src/*/*.c src/*/*.cpp tests/*.c tests/fuzz/*.c
+
+SHARE = $(DESTDIR)$(PREFIX)/share/$(NAME)
+install: $(OUT)/$(NAME)				## program, garments and motions, under $(DESTDIR)$(PREFIX)
+	install -d $(DESTDIR)$(PREFIX)/bin $(SHARE)/garments $(SHARE)/motions
+	install -m 755 $(OUT)/$(NAME) $(DESTDIR)$(PREFIX)/bin/$(NAME)
+	install -m 644 $(wildcard garments/*) $(SHARE)/garments
+	install -m 644 $(wildcard motions/*) $(SHARE)/motions
+	install -m 644 $(wildcard LICENSE README.md) $(SHARE)
+uninstall:					## undo install
+	rm -f $(DESTDIR)$(PREFIX)/bin/$(NAME)
+	rm -rf $(SHARE)
+dist:						## the committed tree as build/kitsuke-VERSION.tar.gz
+	@mkdir -p build
+	git archive --prefix=$(NAME)-$(VERSION)/ -o build/$(NAME)-$(VERSION).tar.gz HEAD
 clean:						## remove build/
 	rm -rf build
+help:						## this list
+	@awk -F ':.*## *' '/^[a-z]+:.*## / {printf "  %-10s %s\n", $$1, $$2}' Makefile
 
--include $(OBJ:.o=.d)
-.PHONY: all clean
+-include $(OBJ:.o=.d) $(UNIT:=.d) $(LINT:=.d)
+.PHONY: all demo test check bench lint fuzz fuzz-run format install uninstall dist clean help FORCE
+.SECONDARY:

@@ -18,8 +18,8 @@ typedef struct {
 
 /* A wavy sheet in two groups (and one that is empty), snapped like a written mesh. */
 static inline void make_sheet(Sheet *s) {
-    s->mesh = (Mesh){.nvertices = VERTICES, .ntriangles = TRIANGLES, .ngroups = 3, .position = s->position, .normal = s->normal,
-                     .u = s->u, .w = s->w, .triangle = s->triangle, .group = s->group};
+    s->mesh = (Mesh){.nvertices = VERTICES, .ntriangles = TRIANGLES, .ngroups = 3, .position = s->position,
+                     .normal = s->normal, .u = s->u, .w = s->w, .triangle = s->triangle, .group = s->group};
     Triangle *t = s->triangle;
     for (int i = 0; i < VERTICES; i++) {
         double a = i % SIDE, b = (double)(i - i % SIDE) / SIDE, slope = 0.3 * cos(a), length = sqrt(1 + slope * slope);

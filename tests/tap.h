@@ -25,7 +25,8 @@ static inline bool tap_ok(bool good, const char *file, int line, const char *fmt
 #define OK(good, ...) tap_ok((good), __FILE__, __LINE__, __VA_ARGS__)
 /* |value - wanted| <= tolerance, and the numbers where it is not so. */
 #define NEAR(value, wanted, tolerance, what) \
-    tap_ok(fabs((value) - (wanted)) <= (tolerance), __FILE__, __LINE__, "%s (%.12g, wanted %.12g)", what, (double)(value), (double)(wanted))
+    tap_ok(fabs((value) - (wanted)) <= (tolerance), __FILE__, __LINE__, "%s (%.12g, wanted %.12g)", what, \
+           (double)(value), (double)(wanted))
 #define SKIP(what, why) printf("ok %d - %s # SKIP %s\n", ++tap_count, what, why)
 
 /* Prints the plan; return it from main. */

@@ -44,19 +44,26 @@ static void sort_triangles(const Mesh *m, const int *original, Triangle *out) {
 static bool same_surface(const Mesh *a, const Mesh *b, double unit, double reach) {
     static Triangle wanted[TRIANGLES], found[TRIANGLES];
     static int original[VERTICES];
-    if (b->ntriangles != a->ntriangles || b->nvertices != a->nvertices || !match_vertices(a, b, unit, reach, original)) return false;
+    if (b->ntriangles != a->ntriangles || b->nvertices != a->nvertices || !match_vertices(a, b, unit, reach, original))
+        return false;
     sort_triangles(a, NULL, wanted);
     sort_triangles(b, original, found);
     bool good = memcmp(wanted, found, sizeof wanted) == 0;
     for (int i = 0; good && i < b->nvertices; i++)
-        good = distance(b->normal[i], a->normal[original[i]]) < 0.01 && fabs(b->u[i] - a->u[original[i]]) < 2e-4 && fabs(b->w[i] - a->w[original[i]]) < 2e-4;
+        good = distance(b->normal[i], a->normal[original[i]]) < 0.01 && fabs(b->u[i] - a->u[original[i]]) < 2e-4 &&
+               fabs(b->w[i] - a->w[original[i]]) < 2e-4;
     return good;
 }
 
 static void test_round_trip(void) {
     static Sheet sheet;
     make_sheet(&sheet);
-    static const struct { DrcOptions options; double unit; int bits; const char *what; } cases[] = {
+    static const struct {
+        DrcOptions options;
+        double unit;
+        int bits;
+        const char *what;
+    } cases[] = {
         {{0}, 1, 14, "default"},
         {{0}, 100, 14, "centimetres"},
         {{.position_bits = 9}, 1, 9, "9 bits"},
@@ -71,13 +78,15 @@ static void test_round_trip(void) {
         long long bytes = 0;
         struct stat info;
         const char *path = in_folder("sheet.drc");
-        bool good = drc_write(path, &sheet.mesh, cases[k].unit, &cases[k].options, &bytes, &e) && stat(path, &info) == 0 &&
-                    info.st_size == bytes && drc_read(path, &arena, &m, &e);
+        bool good = drc_write(path, &sheet.mesh, cases[k].unit, &cases[k].options, &bytes, &e) &&
+                    stat(path, &info) == 0 && info.st_size == bytes && drc_read(path, &arena, &m, &e);
         good = good && same_surface(&sheet.mesh, &m, cases[k].unit, tolerance(cases[k].bits, cases[k].unit));
-        if (!OK(good, "the same triangles within half a step: %s, %lld bytes", cases[k].what, bytes)) printf("# %s\n", e.text);
+        if (!OK(good, "the same triangles within half a step: %s, %lld bytes", cases[k].what, bytes))
+            printf("# %s\n", e.text);
         if (cases[k].options.keep_order)
             OK(memcmp(m.triangle, sheet.triangle, sizeof sheet.triangle) == 0 &&
-               distance(m.position[VERTICES - 1], sheet.position[VERTICES - 1]) < tolerance(14, 1), "vertices and triangles stay in order");
+                   distance(m.position[VERTICES - 1], sheet.position[VERTICES - 1]) < tolerance(14, 1),
+               "vertices and triangles stay in order");
         arena_free(&arena);
     }
 }
@@ -102,9 +111,11 @@ static void test_same_bytes(void) {
     make_sheet(&sheet);
     Error e = {0};
     DrcOptions options = {0};
-    bool good = drc_write(in_folder("a.drc"), &sheet.mesh, 1, &options, NULL, &e) && drc_write(in_folder("b.drc"), &sheet.mesh, 1, &options, NULL, &e);
+    bool good = drc_write(in_folder("a.drc"), &sheet.mesh, 1, &options, NULL, &e) &&
+                drc_write(in_folder("b.drc"), &sheet.mesh, 1, &options, NULL, &e);
     size_t n = load(in_folder("a.drc"), first, sizeof first);
-    OK(good && n > 100 && n == load(in_folder("b.drc"), second, sizeof second) && memcmp(first, second, n) == 0, "the same mesh gives the same bytes");
+    OK(good && n > 100 && n == load(in_folder("b.drc"), second, sizeof second) && memcmp(first, second, n) == 0,
+       "the same mesh gives the same bytes");
 }
 
 static void test_refusals(void) {
@@ -115,12 +126,15 @@ static void test_refusals(void) {
     Mesh m = sheet.mesh;
     DrcOptions options = {0};
     sheet.position[7].y = INFINITY;
-    OK(!drc_write(in_folder("x.drc"), &m, 1, &options, NULL, &e) && e.kind == ERR_INTERNAL, "a number that is not finite is refused: %s", e.text);
+    OK(!drc_write(in_folder("x.drc"), &m, 1, &options, NULL, &e) && e.kind == ERR_INTERNAL,
+       "a number that is not finite is refused: %s", e.text);
     make_sheet(&sheet);
     e = (Error){0};
-    OK(!drc_write(in_folder("x.drc"), &m, 1, &(DrcOptions){.position_bits = 31}, NULL, &e) && e.kind == ERR_INTERNAL, "31 bits are refused: %s", e.text);
+    OK(!drc_write(in_folder("x.drc"), &m, 1, &(DrcOptions){.position_bits = 31}, NULL, &e) && e.kind == ERR_INTERNAL,
+       "31 bits are refused: %s", e.text);
     e = (Error){0};
-    OK(!drc_write(in_folder("none/x.drc"), &m, 1, &options, NULL, &e) && e.kind == ERR_OUTPUT, "a missing folder: %s", e.text);
+    OK(!drc_write(in_folder("none/x.drc"), &m, 1, &options, NULL, &e) && e.kind == ERR_OUTPUT, "a missing folder: %s",
+       e.text);
     e = (Error){0};
     OK(!drc_read(in_folder("none.drc"), &arena, &m, &e) && e.kind == ERR_INPUT, "a missing file: %s", e.text);
     e = (Error){0};

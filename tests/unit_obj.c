@@ -16,7 +16,8 @@ static size_t print_sheet(const Mesh *m, double unit, bool uv, bool normal, char
     for (int i = 0; i < m->nvertices; i++)
         fprintf(f, "v %.6f %.6f %.6f\n", m->position[i].x * unit, m->position[i].y * unit, m->position[i].z * unit);
     for (int i = 0; uv && i < m->nvertices; i++) fprintf(f, "vt %.6f %.6f\n", m->u[i], m->w[i]);
-    for (int i = 0; normal && i < m->nvertices; i++) fprintf(f, "vn %.6f %.6f %.6f\n", m->normal[i].x, m->normal[i].y, m->normal[i].z);
+    for (int i = 0; normal && i < m->nvertices; i++)
+        fprintf(f, "vn %.6f %.6f %.6f\n", m->normal[i].x, m->normal[i].y, m->normal[i].z);
     for (int t = 0; t < m->ntriangles; t++) {
         if (t == 0) fprintf(f, "g left_back\n");
         if (t == 100) fprintf(f, "g right\n");
@@ -65,10 +66,12 @@ static void test_obj_write(void) {
 
 static bool same_mesh(const Mesh *a, const Mesh *b) {
     bool good = a->nvertices == b->nvertices && a->ntriangles == b->ntriangles &&
-                memcmp(a->triangle, b->triangle, (size_t)a->ntriangles * sizeof(Triangle)) == 0 && a->normal && a->u && a->w;
+                memcmp(a->triangle, b->triangle, (size_t)a->ntriangles * sizeof(Triangle)) == 0 && a->normal && a->u &&
+                a->w;
     for (int i = 0; good && i < a->nvertices; i++)
-        good = a->position[i].x == b->position[i].x && a->position[i].y == b->position[i].y && a->position[i].z == b->position[i].z &&
-               fabs(a->normal[i].x - b->normal[i].x) < 1e-6 && fabs(a->u[i] - b->u[i]) < 1e-6 && fabs(a->w[i] - b->w[i]) < 1e-6;
+        good = a->position[i].x == b->position[i].x && a->position[i].y == b->position[i].y &&
+               a->position[i].z == b->position[i].z && fabs(a->normal[i].x - b->normal[i].x) < 1e-6 &&
+               fabs(a->u[i] - b->u[i]) < 1e-6 && fabs(a->w[i] - b->w[i]) < 1e-6;
     return good;
 }
 
@@ -79,9 +82,11 @@ static void test_obj_read(void) {
     Arena arena = {0};
     Error e = {0};
     Mesh m;
-    OK(obj_read(in_folder("sheet.obj"), &arena, &m, &e) && same_mesh(&m, &sheet.mesh), "positions come back exactly, the rest too");
-    OK(m.ngroups == 2 && strcmp(m.group[0].name, "left_back") == 0 && m.group[0].count == 100 && m.group[1].first == 100 &&
-       m.group[1].count == TRIANGLES - 100, "groups come back, names without blanks, the empty one left out");
+    OK(obj_read(in_folder("sheet.obj"), &arena, &m, &e) && same_mesh(&m, &sheet.mesh),
+       "positions come back exactly, the rest too");
+    OK(m.ngroups == 2 && strcmp(m.group[0].name, "left_back") == 0 && m.group[0].count == 100 &&
+           m.group[1].first == 100 && m.group[1].count == TRIANGLES - 100,
+       "groups come back, names without blanks, the empty one left out");
     arena_free(&arena);
 }
 
@@ -96,20 +101,32 @@ static void test_obj_parse(void) {
     Arena arena = {0};
     Error e;
     Mesh m;
-    OK(parse(SQUARE "f 1 2 3 4", &arena, &m, &e) && m.ntriangles == 2 && m.triangle[1].v[0] == 0 && m.triangle[1].v[1] == 2 &&
-       m.triangle[1].v[2] == 3 && !m.u && !m.normal && m.ngroups == 0, "a square without a final newline is a fan of two");
-    OK(parse(SQUARE "f -4 -3 -2\r\nf -4/ -2/ -1/\r\n", &arena, &m, &e) && m.ntriangles == 2 && m.triangle[1].v[2] == 3, "negative indices, CRLF");
+    OK(parse(SQUARE "f 1 2 3 4", &arena, &m, &e) && m.ntriangles == 2 && m.triangle[1].v[0] == 0 &&
+           m.triangle[1].v[1] == 2 && m.triangle[1].v[2] == 3 && !m.u && !m.normal && m.ngroups == 0,
+       "a square without a final newline is a fan of two");
+    OK(parse(SQUARE "f -4 -3 -2\r\nf -4/ -2/ -1/\r\n", &arena, &m, &e) && m.ntriangles == 2 && m.triangle[1].v[2] == 3,
+       "negative indices, CRLF");
     OK(parse(SQUARE "f 1 2 \\\n 3 4 # four\n", &arena, &m, &e) && m.ntriangles == 2, "a continued line and a comment");
     OK(parse("f 1 2 3\n" SQUARE, &arena, &m, &e) && m.ntriangles == 1, "a face before its vertices");
-    OK(parse(SQUARE "vt .5\nvt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/2/1\n", &arena, &m, &e) && m.u[0] == 0.5 && m.w[0] == 0 && m.w[1] == 1 &&
-       m.normal[2].z == 1, "one texture coordinate is enough");
-    OK(parse(SQUARE "vn 0 0 1\nf 1//1 2//1 3\n", &arena, &m, &e) && !m.normal, "normals that not every corner has are left out");
+    OK(parse(SQUARE "vt .5\nvt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/2/1\n", &arena, &m, &e) && m.u[0] == 0.5 && m.w[0] == 0 &&
+           m.w[1] == 1 && m.normal[2].z == 1,
+       "one texture coordinate is enough");
+    OK(parse(SQUARE "vn 0 0 1\nf 1//1 2//1 3\n", &arena, &m, &e) && !m.normal,
+       "normals that not every corner has are left out");
     OK(parse(SQUARE "o a\nusemtl x\nf 1 2 3\no b c \nusemtl x\nf 1 3 4\no d\n", &arena, &m, &e) && m.ngroups == 2 &&
-       strcmp(m.group[1].name, "b c") == 0 && m.group[1].first == 1, "objects are groups where there are none, materials are not");
-    OK(parse(SQUARE "f 1 2 3\ng a\nf 1 3 4\n", &arena, &m, &e) && m.ngroups == 2 && strcmp(m.group[0].name, "default") == 0, "what comes before the first group is the default group");
-    OK(parse("\n\nmtllib x.mtl\ns off\nvp 1\nl 1 2\nv 1 2 3 0.5 0.5 0.5\n", &arena, &m, &e) && m.nvertices == 1 && m.ntriangles == 0, "other lines and colours are skipped");
+           strcmp(m.group[1].name, "b c") == 0 && m.group[1].first == 1,
+       "objects are groups where there are none, materials are not");
+    OK(parse(SQUARE "f 1 2 3\ng a\nf 1 3 4\n", &arena, &m, &e) && m.ngroups == 2 &&
+           strcmp(m.group[0].name, "default") == 0,
+       "what comes before the first group is the default group");
+    OK(parse("\n\nmtllib x.mtl\ns off\nvp 1\nl 1 2\nv 1 2 3 0.5 0.5 0.5\n", &arena, &m, &e) && m.nvertices == 1 &&
+           m.ntriangles == 0,
+       "other lines and colours are skipped");
 
-    static const struct { const char *text, *wanted; int line, column; } bad[] = {
+    static const struct {
+        const char *text, *wanted;
+        int line, column;
+    } bad[] = {
         {SQUARE "f 1 2 1000000000\n", "there is no vertex 1000000000 (the file has 4)", 5, 7},
         {SQUARE "f 1 2 99999999999999999999\n", "there is no vertex 9999999999", 5, 7},
         {SQUARE "f 1 2 0\n", "there is no vertex 0", 5, 7},
@@ -130,8 +147,9 @@ static void test_obj_parse(void) {
         {"hello\n", "no vertices", 0, 0},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        bool refused = !parse(bad[i].text, &arena, &m, &e) && e.kind == ERR_INPUT && strncmp(e.text, bad[i].wanted, strlen(bad[i].wanted)) == 0 &&
-                       e.line == bad[i].line && e.column == bad[i].column;
+        bool refused = !parse(bad[i].text, &arena, &m, &e) && e.kind == ERR_INPUT &&
+                       strncmp(e.text, bad[i].wanted, strlen(bad[i].wanted)) == 0 && e.line == bad[i].line &&
+                       e.column == bad[i].column;
         if (!OK(refused, "refused: %s", bad[i].wanted)) printf("# %s:%d:%d: %s\n", e.file, e.line, e.column, e.text);
     }
     static const char sample[] = SQUARE "vt 0 0\nvn 0 0 1\ng a b\nf 1/1/1 -3/1/1 \\\n3/1/1\n";

@@ -44,9 +44,31 @@ static bool same_as_printf(double x) {
 }
 
 static void test_decimal(void) {
-    static const double special[] = {0.0, -0.0, 1e-7, -1e-7, 4.9999999e-7, 5e-7, 5.0000001e-7, 0.0000015, 0.5, 0.9999995, 0.99999949999,
-        1.0 / 128, 3.0 / 128, 1.0 / 64, 123456789.123456789, 999999999.9999994, 999999999.9999999, 1e9, 1e15, 1e16, 4503599627370496.5,
-        1e22, 1.7976931348623157e308, 2.2250738585072014e-308, 5e-324};
+    static const double special[] = {0.0,
+                                     -0.0,
+                                     1e-7,
+                                     -1e-7,
+                                     4.9999999e-7,
+                                     5e-7,
+                                     5.0000001e-7,
+                                     0.0000015,
+                                     0.5,
+                                     0.9999995,
+                                     0.99999949999,
+                                     1.0 / 128,
+                                     3.0 / 128,
+                                     1.0 / 64,
+                                     123456789.123456789,
+                                     999999999.9999994,
+                                     999999999.9999999,
+                                     1e9,
+                                     1e15,
+                                     1e16,
+                                     4503599627370496.5,
+                                     1e22,
+                                     1.7976931348623157e308,
+                                     2.2250738585072014e-308,
+                                     5e-324};
     bool good = true;
     for (size_t i = 0; i < sizeof special / sizeof *special; i++)
         good &= same_as_printf(special[i]) && same_as_printf(-special[i]);
@@ -96,8 +118,10 @@ static void test_output(void) {
     fprintf(o.file, "half");
     output_abandon(&o);
     output_abandon(&o);
-    OK(holds(path, "a bit") && !is_there(in_folder("bits.txt.tmp")), "abandoned: the old file stays, the temporary goes");
-    OK(output_folder(in_folder("a/b/c"), &e) && output_folder(in_folder("a/b/c/"), &e), "folders are made, or there already");
+    OK(holds(path, "a bit") && !is_there(in_folder("bits.txt.tmp")),
+       "abandoned: the old file stays, the temporary goes");
+    OK(output_folder(in_folder("a/b/c"), &e) && output_folder(in_folder("a/b/c/"), &e),
+       "folders are made, or there already");
     OK(output_file("/dev/null", "gone", 4, &e) && !is_there("/dev/null.tmp"), "a device is written in place");
     struct stat info;
     OK(stat("/dev/null", &info) == 0 && S_ISCHR(info.st_mode), "and stays a device");
@@ -155,7 +179,8 @@ static void test_full_disk(void) {
     setrlimit(RLIMIT_FSIZE, &old);
     signal(SIGXFSZ, handler);
     free(data);
-    OK(fails_with(whole, &first, EFBIG) && !is_there(in_folder("big")) && !is_there(in_folder("big.tmp")), "full in the middle: nothing is left");
+    OK(fails_with(whole, &first, EFBIG) && !is_there(in_folder("big")) && !is_there(in_folder("big.tmp")),
+       "full in the middle: nothing is left");
     OK(opened && noticed && fails_with(good, &second, EFBIG), "a long job notices while it writes");
     OK(!is_there(in_folder("slow")) && !is_there(in_folder("slow.tmp")), "and nothing is left either");
     OK(!replaced && third.kind == ERR_OUTPUT && holds(in_folder("whole.txt"), "two"), "an older file is as it was");

@@ -8,18 +8,45 @@
 #include "folder.h"
 #include "tap.h"
 
-static const char frame_head[] =
-    "frame,time,garment,split,nodes,leaves,depth,cells,vertices,triangles,pairs_all,pairs_tested,hits_before,sweeps,active,"
-    "displacement,residual_edges,residual_cloth,inside,deepest,limb_edges,limb_cloth,limb_inside,pinched,capped,restarted";
+static const char frame_head[] = "frame,time,garment,split,nodes,leaves,depth,cells,vertices,triangles,pairs_all,pairs_"
+                                 "tested,hits_before,sweeps,active,"
+                                 "displacement,residual_edges,residual_cloth,inside,deepest,limb_edges,limb_cloth,limb_"
+                                 "inside,pinched,capped,restarted";
 static const char frame_times[] = ",pose_s,global_s,test_s,push_s,mesh_s,write_s";
 
 static StatsRow sample_row(void) {
-    return (StatsRow){.frame = 12, .time = 11 / 120.0, .garment = "skirt", .split = SPLIT_UNIFORM,
-        .stats = {.nodes = 42, .leaves = 32, .depth = 2, .cells = 50, .vertices = 1300, .triangles = 2500, .pairs_all = 60000000000,
-                  .pairs_tested = 12345, .hits_before = 7, .sweeps = 3, .active = 9, .displacement = 0.0123456789, .residual_edges = 1,
-                  .residual_cloth = 2, .inside = 3, .deepest = 1e-9, .limb_edges = 4, .limb_cloth = 5, .limb_inside = 6, .pinched = 8,
-                  .capped = true, .restarted = false, .global_s = 0.5, .test_s = 0.25, .push_s = 1e-6, .mesh_s = 2},
-        .pose_s = 0.125, .write_s = 0.0625};
+    return (StatsRow){.frame = 12,
+                      .time = 11 / 120.0,
+                      .garment = "skirt",
+                      .split = SPLIT_UNIFORM,
+                      .stats = {.nodes = 42,
+                                .leaves = 32,
+                                .depth = 2,
+                                .cells = 50,
+                                .vertices = 1300,
+                                .triangles = 2500,
+                                .pairs_all = 60000000000,
+                                .pairs_tested = 12345,
+                                .hits_before = 7,
+                                .sweeps = 3,
+                                .active = 9,
+                                .displacement = 0.0123456789,
+                                .residual_edges = 1,
+                                .residual_cloth = 2,
+                                .inside = 3,
+                                .deepest = 1e-9,
+                                .limb_edges = 4,
+                                .limb_cloth = 5,
+                                .limb_inside = 6,
+                                .pinched = 8,
+                                .capped = true,
+                                .restarted = false,
+                                .global_s = 0.5,
+                                .test_s = 0.25,
+                                .push_s = 1e-6,
+                                .mesh_s = 2},
+                      .pose_s = 0.125,
+                      .write_s = 0.0625};
 }
 
 /* The lines of the file that are no comment, in one static text. */
@@ -48,18 +75,25 @@ static void test_frames(void) {
     StatsFile f;
     const char *path = in_folder("stats.csv");
     struct stat info;
-    OK(stats_open(&f, path, TABLE_STATS, true, &e) && stats_add(&f, &row, &e) && stat(path, &info) != 0, "nothing is seen before the end");
+    OK(stats_open(&f, path, TABLE_STATS, true, &e) && stats_add(&f, &row, &e) && stat(path, &info) != 0,
+       "nothing is seen before the end");
     OK(stats_close(&f, &e) && is_table(path, frame_head, frame_times,
-       "12,0.091667,skirt,uniform,42,32,2,50,1300,2500,60000000000,12345,7,3,9,0.012346,1,2,3,0.000000,4,5,6,8,1,0,"
-       "0.125000,0.500000,0.250000,0.000001,2.000000,0.062500"), "a row of stats.csv");
+                                       "12,0.091667,skirt,uniform,42,32,2,50,1300,2500,60000000000,12345,7,3,9,0."
+                                       "012346,1,2,3,0.000000,4,5,6,8,1,0,"
+                                       "0.125000,0.500000,0.250000,0.000001,2.000000,0.062500"),
+       "a row of stats.csv");
     bool written = stats_open(&f, path, TABLE_STATS, false, &e) && stats_add(&f, &row, &e) && stats_close(&f, &e);
     OK(written && is_table(path, frame_head, "",
-       "12,0.091667,skirt,uniform,42,32,2,50,1300,2500,60000000000,12345,7,3,9,0.012346,1,2,3,0.000000,4,5,6,8,1,0"), "and without times");
+                           "12,0.091667,skirt,uniform,42,32,2,50,1300,2500,60000000000,12345,7,3,9,0.012346,1,2,3,0."
+                           "000000,4,5,6,8,1,0"),
+       "and without times");
     row.stats.displacement = -NAN;
     row.garment = "a,\"b\"\nc";
     written = stats_open(&f, path, TABLE_STATS, false, &e) && stats_add(&f, &row, &e) && stats_close(&f, &e);
     OK(written && is_table(path, frame_head, "",
-       "12,0.091667,\"a,\"\"b\"\"?c\",uniform,42,32,2,50,1300,2500,60000000000,12345,7,3,9,nan,1,2,3,0.000000,4,5,6,8,1,0"), "names are quoted, no number is nan");
+                           "12,0.091667,\"a,\"\"b\"\"?c\",uniform,42,32,2,50,1300,2500,60000000000,12345,7,3,9,nan,1,2,"
+                           "3,0.000000,4,5,6,8,1,0"),
+       "names are quoted, no number is nan");
 }
 
 static void test_summary(void) {
@@ -71,15 +105,23 @@ static void test_summary(void) {
     summary_add(&sum, &row);
     row.stats = (FrameStats){.limb_cloth = 1, .displacement = 0.2, .inside = 1};
     summary_add(&sum, &row);
-    SummaryRow refused = {.motion = "chain", .status = "refused", .reason = "no human: 'left_thigh', 'right_thigh' missing"};
+    SummaryRow refused = {
+        .motion = "chain", .status = "refused", .reason = "no human: 'left_thigh', 'right_thigh' missing"};
     StatsFile f;
     const char *path = in_folder("summary.csv");
     bool written = stats_open(&f, path, TABLE_SUMMARY, true, &e) && stats_add_summary(&f, &sum, &e) &&
                    stats_add_summary(&f, &refused, &e) && stats_close(&f, &e);
-    OK(written && is_table(path, "motion,garment,status,frames,residual_frames,residual_edges,residual_cloth,inside,deepest,limb_frames,"
-       "pinched_frames,capped_frames,max_displacement,mean_nodes,max_nodes,pairs_all,pairs_tested,bytes,seconds,reason", "",
-       "walks/fast,skirt,ok,3,2,1,2,4,0.001000,2,2,1,0.200000,14.333333,42,60000000001,12345,5000000000,1.500000,\n"
-       "chain,,refused,0,0,0,0,0,0.000000,0,0,0,0.000000,0.000000,0,0,0,0,0.000000,\"no human: 'left_thigh', 'right_thigh' missing\""),
+    OK(written &&
+           is_table(
+               path,
+               "motion,garment,status,frames,residual_frames,residual_edges,residual_cloth,inside,deepest,limb_frames,"
+               "pinched_frames,capped_frames,max_displacement,mean_nodes,max_nodes,pairs_all,pairs_tested,bytes,"
+               "seconds,reason",
+               "",
+               "walks/"
+               "fast,skirt,ok,3,2,1,2,4,0.001000,2,2,1,0.200000,14.333333,42,60000000001,12345,5000000000,1.500000,\n"
+               "chain,,refused,0,0,0,0,0,0.000000,0,0,0,0.000000,0.000000,0,0,0,0,0.000000,\"no human: 'left_thigh', "
+               "'right_thigh' missing\""),
        "rows of summary.csv");
 }
 
@@ -93,7 +135,9 @@ static void test_units(void) {
         if (!fgets(line[0], sizeof line[0], in) || !fgets(line[1], sizeof line[1], in)) printf("# two lines wanted\n");
         fclose(in);
     }
-    OK(line[0][0] == '#' && strcmp(line[1], "# units: time s; displacement m; deepest m; all other numbers are counts or flags\n") == 0, "comment lines tell the units: %.*s", (int)strcspn(line[1], "\n"), line[1]);
+    OK(line[0][0] == '#' &&
+           strcmp(line[1], "# units: time s; displacement m; deepest m; all other numbers are counts or flags\n") == 0,
+       "comment lines tell the units: %.*s", (int)strcspn(line[1], "\n"), line[1]);
 }
 
 static void test_full_disk(void) {
@@ -109,7 +153,8 @@ static void test_full_disk(void) {
     int rows = 0;
     while (good && rows < 1000 && stats_add(&f, &row, &e)) rows++;
     if (good) stats_abandon(&f);
-    OK(good && rows > 0 && rows < 1000 && e.kind == ERR_OUTPUT && strstr(e.text, "No space left"), "a full disk is noticed after %d rows", rows);
+    OK(good && rows > 0 && rows < 1000 && e.kind == ERR_OUTPUT && strstr(e.text, "No space left"),
+       "a full disk is noticed after %d rows", rows);
 }
 
 /* The README shows the columns as stats_describe prints them. */

@@ -57,7 +57,7 @@ typedef enum {
     KIND_FLAG,   /* bool: --name, --no-name, --name=yes|no */
     KIND_INT,    /* int in low..high, a multiple of `step` */
     KIND_REAL,   /* double in low..high */
-    KIND_TEXT,   /* const char * */
+    KIND_TEXT,   /* const char *; one of `choices` if there are any */
     KIND_LIST,   /* TextList: may be repeated */
     KIND_CHOICE, /* int: one of `choices` */
     KIND_SET,    /* unsigned: several of `choices`, separated by commas */

@@ -25,6 +25,7 @@ typedef struct {
     Mat3 pelvis;                      /* of the frame that the displacement belongs to */
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
     double *clearance;                /* per mesh vertex: distance asked for */
+    double length[BODY_PARTS_MAX];    /* of each part along its bone, as far as it counts here */
     PushSample *sample;
     int nsamples;
     int *raised, nraised;             /* mesh vertices that were asked for more */

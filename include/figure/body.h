@@ -29,6 +29,7 @@ enum { SECTIONS_MAX = 24, CAP_SECTIONS = 3, SPEC_SECTIONS_MAX = SECTIONS_MAX - 2
 /* A part as the body file gives it, for the reference figure. */
 typedef struct {
     Role role;
+    double cap[2]; /* how far the end caps reach past the first and last section; 0: a half ball */
     int nsections; /* 2..SPEC_SECTIONS_MAX */
     Section section[SPEC_SECTIONS_MAX];
 } BodyPartSpec;
@@ -79,9 +80,9 @@ typedef struct {
    shells, one for each part, no degenerate triangles. Memory from arena. */
 MUST_CHECK bool body_fit(const BodySpec *spec, const Figure *figure, int detail, Arena *arena, Body *out, Error *e);
 
-/* The steps of body_fit. Closes a part whose nsections sections (in metres) are set: adds the
-   caps and fills everything from `section` to `bucket`. */
-void body_part_close(BodyPart *part);
+/* The steps of body_fit. Closes a part whose nsections sections (in metres) are set: adds caps
+   of these heights and fills everything from `section` to `bucket`. */
+void body_part_close(BodyPart *part, const double cap[2]);
 
 /* Patches and skin of a body whose parts are closed. */
 MUST_CHECK bool body_skin(Body *body, int detail, Arena *arena, Error *e);

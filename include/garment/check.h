@@ -28,8 +28,8 @@ MUST_CHECK bool check_join(const Garment *g, const Join *join, Why *why);
 MUST_CHECK bool check_collide(const Garment *g, const Collide *collide, Why *why);
 MUST_CHECK bool check_pin(const Garment *g, const Pin *pin, Why *why);
 
-/* Can a garment that follows the envelope have this panel: rings of torso and legs, the same in
-   every panel, each below the one before? */
+/* Can a garment that follows the envelope have this panel: all of its rings, in the order of the
+   file, on torso and legs, each below the one before? */
 MUST_CHECK bool check_envelope(const Garment *g, const Panel *panel, Why *why);
 
 /* Adds the mirror image of everything whose name begins with `from`, named with `to` instead. */

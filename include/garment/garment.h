@@ -45,11 +45,11 @@ typedef struct { int ring; Station from, via, to; } Row;
 /* A column of nrows - 1 patches. u runs along the rows, w from the first row to the last. */
 typedef struct { char name[GARMENT_NAME_MAX]; int nrows; Row row[GARMENT_ROWS_MAX]; } Panel;
 
-/* A raw patch: 16 control points, row by row like a panel's rows, top row first, so that u runs
-   along a row and w from row to row: point[4 * j + i] is B_ij. */
+/* A raw patch: 16 control points in four columns, from start to end, each from top to bottom:
+   point[4 * i + j] is B_ij. */
 typedef struct { char name[GARMENT_NAME_MAX]; Vec3 point[16]; Binding binding[16]; } RawPatch;
 
-/* start / end: first / last point of every row (u = 0 / 1); top / bottom: first / last row. */
+/* start / end: first / last point of every row (u = 0 / 1); top / bottom: first / last row (w = 0 / 1). */
 typedef enum { SIDE_START, SIDE_END, SIDE_TOP, SIDE_BOTTOM } Side;
 
 /* piece: panels first (0..npanels-1), then raw patches (npanels + k). */

@@ -12,6 +12,8 @@ static const Command commands[] = {
      "kitsuke dress mocap/ -g garments/tshirt.garment -g garments/trousers.garment -o out --format obj,drc", cmd_dress},
     {"inspect", COMMAND_INSPECT, "tell what is in a motion, garment or body file", "[OPTION]... FILE...",
      "kitsuke inspect motions/paper-walk.bvh\nkitsuke inspect --joints motions/paper-walk.bvh > joints.csv", cmd_inspect},
+    {"walk", COMMAND_WALK, "make a walking motion", "[OPTION]...",
+     "kitsuke walk --preset paper -o paper-walk.bvh\nkitsuke walk --height 1.2 --speed 0.9 --steps 20 > child.bvh", cmd_walk},
     {0}};
 
 static const Command *find_command(const char *name) {

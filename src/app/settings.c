@@ -14,6 +14,7 @@ static const Choice topologies[] = {{"adaptive", 0}, {"fixed", 1}, {NULL, 0}};
 static const Choice positions[] = {{"guess", POSITION_GUESS}, {"add", POSITION_ADD}, {"replace", POSITION_REPLACE}, {NULL, 0}};
 static const Choice axes[] = {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}, {"-x", 'X'}, {"-y", 'Y'}, {"-z", 'Z'}, {NULL, 0}};
 static const Choice formats[] = {{"obj", FORMAT_OBJ}, {"drc", FORMAT_DRC}, {"none", FORMAT_NONE}, {NULL, 0}};
+static const Choice presets[] = {{"normal", 0}, {"paper", 0}, {"brisk", 0}, {"squat", 0}, {"turn", 0}, {NULL, 0}};
 static const Choice progress_modes[] = {{"auto", PROGRESS_AUTO}, {"always", PROGRESS_ALWAYS}, {"never", PROGRESS_NEVER}, {NULL, 0}};
 
 /* Names that --unit takes, in metres. */
@@ -78,6 +79,25 @@ const Option settings_table[] = {
 
     {"joints", 0, KIND_FLAG, FIELD(joints), NULL, "print frame,joint,x,y,z of every joint and frame, in the file's units and axes",
      NULL, "Output", COMMAND_INSPECT},
+
+    {"preset", 0, KIND_TEXT, FIELD(gait.preset), "NAME", "kind of walk; paper: the walk of the paper's figures", "normal", "Walk",
+     COMMAND_WALK, .choices = presets},
+    {"steps", 0, KIND_INT, FIELD(gait.steps), "N", "steps to walk", "what suits the preset", "Walk", COMMAND_WALK, RANGE(1, 10000)},
+    {"frames-per-step", 0, KIND_INT, FIELD(gait.frames_per_step), "N", "frames of one step", "36", "Walk", COMMAND_WALK, RANGE(4, 1000)},
+    {"height", 0, KIND_REAL, FIELD(gait.height), "M", "stature in metres", "1.7", "Walk", COMMAND_WALK, RANGE(0.5, 2.5)},
+    {"speed", 0, KIND_REAL, FIELD(gait.speed), "M/S", "metres a second", "what suits the step", "Walk", COMMAND_WALK, RANGE(0.05, 10)},
+    {"step-length", 0, KIND_REAL, FIELD(gait.step_length), "M", "metres from heel to heel", "what suits height and preset", "Walk",
+     COMMAND_WALK, RANGE(0.05, 2)},
+    {"knee-lift", 0, KIND_REAL, FIELD(gait.knee_lift), "DEG", "how much more the knee bends in swing", "0", "Walk", COMMAND_WALK,
+     RANGE(0, 90)},
+    {"arm-swing", 0, KIND_REAL, FIELD(gait.arm_swing), "DEG", "half the range of the upper arm", "the preset's", "Walk", COMMAND_WALK,
+     RANGE(0, 90)},
+    {"slope", 0, KIND_REAL, FIELD(gait.slope), "DEG", "of the ground, up is positive", "0", "Walk", COMMAND_WALK, RANGE(-40, 40)},
+    {"stairs", 0, KIND_INT, FIELD(gait.stair_count), "N", "steps of a stair", "0", "Walk", COMMAND_WALK, RANGE(0, 1000)},
+    {"stair-rise", 0, KIND_REAL, FIELD(gait.stair_rise), "M", "height of each, downwards if negative", "0", "Walk", COMMAND_WALK,
+     RANGE(-0.4, 0.4)},
+    {"stair-run", 0, KIND_REAL, FIELD(gait.stair_run), "M", "depth of each", "0", "Walk", COMMAND_WALK, RANGE(0, 1)},
+    {"output", 'o', KIND_TEXT, FIELD(output), "FILE", "BVH file to write", "standard output", "Output", COMMAND_WALK},
 
     {"jobs", 'j', KIND_INT, FIELD(jobs), "N", "motions that are dressed at the same time", "one for each processor", "Run",
      COMMAND_DRESS, RANGE(1, 256)},
@@ -263,6 +283,7 @@ bool settings_put(Settings *s, const Option *option, const char *text, Arena *ar
     case KIND_TEXT: break;
     }
     if (!*text) return error_set(e, ERR_USAGE, "option '--%s' needs a %s", option->name, option->argument);
+    if (option->choices && !find_choice(option, text, strlen(text))) return wrong_choice(option, text, strlen(text), e);
     *(const char **)field = text;
     return true;
 }

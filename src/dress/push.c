@@ -18,6 +18,7 @@ static const double FELT = 0.0002;      /* a carried displacement below this is 
 static const double NORM_MIN = 0.02;    /* a sample that level vertices hardly move is left to offsets */
 static const double BUDGET = 0.02;      /* a sample may issue twice its first violation and this */
 static const double RAISE_MAX = 0.02;   /* most extra clearance */
+static const double OFFSET_MAX = 0.03;  /* of a single vertex: more would be a spike */
 
 bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     *p = (Push){.lattice = lattice, .scale = lattice->fit->height / 1.70, .pelvis = mat_identity()};
@@ -110,6 +111,28 @@ static Vec3 field(const Push *p, int place) {
     return d;
 }
 
+/* Distance from a part as this garment meets it. */
+static double distance(const Push *p, const BodyFrame *body, int part, Vec3 x, double far, Vec3 *normal) {
+    if (p->length[part] < INFINITY && rigid_apply(body->to_part[part], x).y > p->length[part]) return far;
+    return body_frame_distance(body, part, x, far, normal);
+}
+
+/* The calf behind a strongly bent knee lies outside a skirt: what counts of the shin shrinks, from
+   60 to 95 degrees of flexion, to the length that the skirt has below the knee. */
+static void find_lengths(Push *p, const BodyFrame *body) {
+    static const Role shin[2] = {ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN}, thigh[2] = {ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH};
+    const Fit *fit = p->lattice->fit;
+    for (int part = 0; part < BODY_PARTS_MAX; part++) p->length[part] = INFINITY;
+    for (int leg = 0; leg < 2 && fit->garment->loose; leg++) {
+        int k = body->body->of_role[shin[leg]], t = body->body->of_role[thigh[leg]];
+        if (k < 0 || t < 0) continue;
+        double flexion = acos(clamp(vec_dot(mat_column(body->to_world[k], 1), mat_column(body->to_world[t], 1)), -1, 1));
+        double bent = smoothstep(60 * PI / 180, 95 * PI / 180, flexion);
+        double whole = body->body->part[k].high, inside = fmax(0, fit->below_knee) + 0.03 * p->scale;
+        if (bent > 0) p->length[k] = whole + bent * (inside - whole);
+    }
+}
+
 static Vec3 sample_point(const Push *p, const Sheet *sheet, const PushSample *s) {
     Vec3 x = vec_add(p->global[s->vertex], p->offset[sheet->place[s->vertex]]);
     for (int k = 0; k < s->n; k++) x = vec_mad(x, p->displacement[s->id[k]], s->weight[k]);
@@ -120,7 +143,7 @@ static Vec3 sample_point(const Push *p, const Sheet *sheet, const PushSample *s)
 static unsigned parts_near(const Push *p, const BodyFrame *body, int place, Vec3 x, double far) {
     unsigned near = 0, collide = p->lattice->collide[place];
     for (int k = 0; k < body->body->nparts; k++)
-        if (collide & part_bit(body, k) && body_frame_distance(body, k, x, far, NULL) < far) near |= 1u << k;
+        if (collide & part_bit(body, k) && distance(p, body, k, x, far, NULL) < far) near |= 1u << k;
     return near;
 }
 
@@ -169,7 +192,7 @@ static void project(Push *p, PushSample *s, const Sheet *sheet, Vec3 n, double d
         }
     } else {
         Vec3 *o = &p->offset[sheet->place[s->vertex]];
-        *o = limit(vec_mad(*o, n, depth), p->cap, &result->capped);
+        *o = limit(vec_mad(*o, n, depth), OFFSET_MAX * p->scale, &result->capped);
     }
 }
 
@@ -182,7 +205,7 @@ static double sweep(Push *p, const BodyFrame *body, const Sheet *sheet, PushResu
         for (int part = 0; s->near >> part; part++) {
             if (!(s->near >> part & 1)) continue;
             Vec3 n, x = sample_point(p, sheet, s);
-            double depth = clearance - body_frame_distance(body, part, x, clearance, &n);
+            double depth = clearance - distance(p, body, part, x, clearance, &n);
             if (depth <= SLACK * clearance) continue;
             if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->scale;
             if (s->spent > s->budget) continue; /* pinched: it has had its say */
@@ -195,17 +218,19 @@ static double sweep(Push *p, const BodyFrame *body, const Sheet *sheet, PushResu
 }
 
 /* Single vertices that the sweeps left too near are moved by their own offset. */
-static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, unsigned near) {
+static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, unsigned near,
+                          bool *capped) {
     Vec3 *o = &p->offset[sheet->place[vertex]];
     for (int step = 0; step < SETTLES_MAX; step++) {
         bool moved = false;
         for (int part = 0; near >> part; part++) {
             if (!(near >> part & 1)) continue;
             Vec3 n;
-            double depth = p->clearance[vertex] - body_frame_distance(body, part, p->point[vertex], p->clearance[vertex], &n);
+            double depth = p->clearance[vertex] - distance(p, body, part, p->point[vertex], p->clearance[vertex], &n);
             if (depth <= SLACK * p->clearance[vertex]) continue;
-            *o = vec_mad(*o, n, depth);
-            p->point[vertex] = vec_mad(p->point[vertex], n, depth);
+            Vec3 longer = limit(vec_mad(*o, n, depth), OFFSET_MAX * p->scale, capped);
+            p->point[vertex] = vec_add(p->point[vertex], vec_sub(longer, *o));
+            *o = longer;
             moved = true;
         }
         if (!moved) return;
@@ -227,6 +252,7 @@ void push_solve(Push *p, const Patch *root, const BodyFrame *body, const Leaves 
     *result = (PushResult){0};
     p->nraised = 0;
     find_active(p, leaves);
+    find_lengths(p, body);
     for (int v = 0; v < sheet->nvertices; v++) {
         p->global[v] = global_point(p->lattice, root, sheet->place[v]);
         p->clearance[v] = PUSH_MARGIN * p->scale;
@@ -245,7 +271,7 @@ void push_solve(Push *p, const Patch *root, const BodyFrame *body, const Leaves 
     }
     for (int v = 0; v < sheet->nvertices; v++)
         p->point[v] = vec_add(vec_add(p->global[v], p->offset[sheet->place[v]]), field(p, sheet->place[v]));
-    for (int k = 0; k < p->nsamples; k++) settle_vertex(p, body, sheet, p->sample[k].vertex, p->sample[k].near);
+    for (int k = 0; k < p->nsamples; k++) settle_vertex(p, body, sheet, p->sample[k].vertex, p->sample[k].near, &result->capped);
     measure(p, body, sheet, result);
 }
 
@@ -260,7 +286,7 @@ bool push_raise(Push *p, int vertex, double by) {
 void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
     for (int k = 0; k < p->nraised; k++) {
         int v = p->raised[k];
-        settle_vertex(p, body, sheet, v, parts_near(p, body, sheet->place[v], p->point[v], p->clearance[v]));
+        settle_vertex(p, body, sheet, v, parts_near(p, body, sheet->place[v], p->point[v], p->clearance[v]), &result->capped);
     }
     measure(p, body, sheet, result);
 }

@@ -107,7 +107,7 @@ static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, 
         for (int v = 0; v < ncells * npoints; v++) c->position[v] = vec_scale(c->position[v], body->unit);
     crossing_build_triangles(&c->set, c->position, c->triangle, ncells * ntriangles);
     for (int p = 0; p < body->body->nparts; p++) {
-        if (!(l->fit->own & part_bit(body, p))) continue;
+        if (!(l->fit->collide & part_bit(body, p))) continue;
         int before = out->count.hits, found = crossing_find(&body->edges[p], &c->set, c->found, c->found_capacity, &out->count);
         if (found < out->count.hits - before) out->capped = true;
         for (int k = 0; k < found; k++) {

@@ -26,16 +26,17 @@ static void values_of(const Section *s, double v[SHAPE_VALUES]) {
     v[4] = s->back;
 }
 
-/* Prepends and appends the caps: as high as the end section's smaller half size, which makes a
-   round limb end in a half ball, so that two limbs that share a joint bend without a gap. */
-static void add_caps(BodyPart *part) {
+/* Prepends and appends the caps. Without a height of its own a cap is as high as the end
+   section's smaller half size: a round limb then ends in a half ball, and two limbs that share
+   a joint bend without a gap. */
+static void add_caps(BodyPart *part, const double cap[2]) {
     Section body[SECTIONS_MAX];
     int n = part->nsections;
     memcpy(body, part->section, (size_t)n * sizeof *body);
     memcpy(part->section + CAP_SECTIONS, body, (size_t)n * sizeof *body);
     for (int end = 0; end < 2; end++) {
         Section rim = end ? body[n - 1] : body[0];
-        double height = fmin(rim.side, 0.5 * (rim.front + rim.back));
+        double height = cap[end] > 0 ? cap[end] : fmin(rim.side, 0.5 * (rim.front + rim.back));
         for (int k = 0; k < CAP_SECTIONS; k++) {
             Section *s = &part->section[end ? CAP_SECTIONS + n + k : CAP_SECTIONS - 1 - k];
             *s = rim;
@@ -90,8 +91,8 @@ static double reach_of(const BodyPart *part) {
     return reach;
 }
 
-void body_part_close(BodyPart *part) {
-    add_caps(part);
+void body_part_close(BodyPart *part, const double cap[2]) {
+    add_caps(part, cap);
     fill_cubics(part);
     int last = part->nsections - 1;
     part->low = part->section[0].at;
@@ -138,34 +139,56 @@ Section body_section(const BodyPart *part, double at) {
     return s;
 }
 
-/* The surface is the zero of f(x, y, z) - 1, where f is the distance from the section's centre
-   in units of the half axes. The distance is taken to the tangent plane at the surface point
-   that lies at the same height in the same direction: exact in sign, exact to first order, and
-   for a convex part never more than the true one. */
-double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal) {
-    double beyond = fmax(p.y - part->high, part->low - p.y);
-    if (beyond >= far) return beyond;
-    double away = p.x * p.x + p.z * p.z, limit = part->reach + far;
-    if (away >= limit * limit) return fmax(far, sqrt(away) - part->reach);
-
-    double v[SHAPE_VALUES], d[SHAPE_VALUES], y = clamp(p.y, part->low + POLE, part->high - POLE);
+/* The surface is where f = 1, f being the distance from the section's centre in units of the
+   half axes. Takes the surface point at the height of `at`, in the direction of `at`; returns
+   how far p stands before the tangent plane there, and the plane's unit normal. For p == at
+   the sign is that of f - 1, so it is exact. */
+static double before_plane(const BodyPart *part, Vec3 at, Vec3 p, Vec3 *normal) {
+    double v[SHAPE_VALUES], d[SHAPE_VALUES], y = clamp(at.y, part->low + POLE, part->high - POLE);
     shape_at(part, y, v, d);
-    double dx = p.x - v[0], dz = p.z - v[1];
+    double dx = at.x - v[0], dz = at.z - v[1];
     int depth = dz >= 0 ? 3 : 4;
     double per_x = 1 / v[2], per_z = 1 / v[depth];
     double ux = dx * per_x, uz = dz * per_z, f = sqrt(ux * ux + uz * uz);
     if (f > 1e-9) {
-        ux /= f;
-        uz /= f;
+        f = 1 / f;
+        ux *= f;
+        uz *= f;
     } else { /* on the axis: the way out is along the shorter half axis */
         ux = v[2] <= v[depth];
         uz = 1 - ux;
     }
     Vec3 g = vec(ux * per_x, 0, uz * per_z); /* half the gradient of f^2 on the surface */
     g.y = -(g.x * (d[0] + ux * d[2]) + g.z * (d[1] + uz * d[depth]));
-    double per_g = 1 / vec_len(g), distance = (f - 1 + g.y * (p.y - y)) * per_g;
+    Vec3 surface = vec(v[0] + ux * v[2], y, v[1] + uz * v[depth]);
+    double size = 1 / vec_len(g);
+    *normal = vec_scale(g, size);
+    return vec_dot(vec_sub(p, surface), *normal);
+}
+
+/* Where the surface leans (caps, calf, seat) the nearest point is not at the same height: a
+   second plane is taken under the first one's foot. For a convex part both planes bound the
+   distance from below. */
+static const double LEANING = 0.2;
+
+double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal) {
+    double beyond = fmax(p.y - part->high, part->low - p.y);
+    if (beyond >= far) return beyond;
+    double away = p.x * p.x + p.z * p.z, limit = part->reach + far;
+    if (away >= limit * limit) return fmax(far, sqrt(away) - part->reach);
+
+    Vec3 n, n2;
+    double distance = before_plane(part, p, p, &n);
     if (distance >= far) return far;
-    if (normal) *normal = vec_scale(g, per_g);
+    if (fabs(n.y) > LEANING) {
+        double better = before_plane(part, vec_mad(p, n, -distance), p, &n2);
+        if ((better > 0) == (distance > 0)) {
+            distance = better;
+            n = n2;
+        }
+    }
+    if (distance >= far) return far;
+    if (normal) *normal = n;
     return distance;
 }
 

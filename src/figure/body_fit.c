@@ -101,10 +101,10 @@ static double torso_width(const Sizes *s, double height) {
     return s->hips + t * (s->shoulders - s->hips);
 }
 
-/* Thighs of narrow hips make room for each other at the top; at the knee they stand straight. */
+/* Thighs of narrow hips make room for each other; towards the knee they come back to the bone. */
 static double thigh_shift(const Sizes *s, double side, double at) {
     double room = s->figure->start[ROLE_LEFT_THIGH].x;
-    return clamp(side - room, 0, 0.03 * s->size) * clamp(1 - at, 0, 1);
+    return clamp(side - room, 0, 0.03 * s->size) * clamp(2.5 * (1 - at), 0, 1);
 }
 
 /* Feet: how far the sole of the scaled part would stand above (or under) the floor. */
@@ -144,7 +144,8 @@ bool body_fit(const BodySpec *spec, const Figure *figure, int detail, Arena *are
         part->length = length_of(&s, from->role);
         part->nsections = from->nsections;
         for (int k = 0; k < from->nsections; k++) size_section(&s, part, &from->section[k], &part->section[k]);
-        body_part_close(part);
+        double girth = s.girth[build_of(part->role)], cap[2] = {from->cap[0] * girth, from->cap[1] * girth};
+        body_part_close(part, cap);
     }
     return body_skin(out, detail, arena, e);
 }

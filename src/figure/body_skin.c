@@ -45,11 +45,12 @@ static Patch quarter_patch(const BodyPart *part, int i, int quarter) {
     for (int k = 0; k < SHAPE_VALUES; k++) bezier_values(part, i, k, v[k]);
     const double *depth = quarter == 0 || quarter == 3 ? v[3] : v[4];
     const int *turn = TURN[quarter];
+    double low = part->section[i].at, high = part->section[i + 1].at;
     Patch patch;
     for (int a = 0; a < 4; a++) {
         double x = ARC_SIN[a] * turn[0] + ARC_COS[a] * turn[1], z = ARC_SIN[a] * turn[2] + ARC_COS[a] * turn[3];
         for (int b = 0; b < 4; b++) {
-            double y = part->section[i].at + (part->section[i + 1].at - part->section[i].at) * b / 3.0;
+            double y = b < 3 ? low + (high - low) * b / 3.0 : high;
             patch.p[a][b] = rigid_apply(part->frame, vec(v[0][b] + v[2][b] * x, y, v[1][b] + depth[b] * z));
         }
     }

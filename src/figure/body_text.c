@@ -9,7 +9,7 @@ enum { BODY_FILE_MAX = 1 << 20 };
 
 /* A section farther from its bone than this, or larger, is a slip of the pen (of metres and
    centimetres, most often). In bone lengths and metres. */
-static const double AT_LIMIT = 10, CENTRE_LIMIT = 1, SIZE_LIMIT = 1;
+static const double AT_LIMIT = 10, CENTRE_LIMIT = 1, SIZE_LIMIT = 1, SIZE_LEAST = 0.001;
 
 /* Sections closer than this (in bone lengths) make a step, not a surface. */
 static const double AT_STEP = 1e-3;
@@ -92,13 +92,22 @@ static bool read_section(const Line *line, BodyPartSpec *part, Error *e) {
         if (!text_real(line, i + 1, x, e)) return false;
         if (fabs(*x) > limit)
             return text_error(line, i + 1, e, "%s must be from %g to %g", COLUMNS[i], i < 3 ? -limit : 0.0, limit);
-        if (i >= 3 && *x < 1e-3) return text_error(line, i + 1, e, "%s must be at least 0.001 m", COLUMNS[i]);
+        if (i >= 3 && *x < SIZE_LEAST) return text_error(line, i + 1, e, "%s must be at least %g", COLUMNS[i], SIZE_LEAST);
     }
     if (!no_more_words(line, COLUMN_COUNT + 1, e)) return false;
     if (part->nsections && s->at < s[-1].at + AT_STEP)
         return text_error(line, 1, e, "at must grow from section to section by %g or more", AT_STEP);
     part->nsections++;
     return true;
+}
+
+static bool read_caps(const Line *line, BodyPartSpec *part, Error *e) {
+    for (int i = 0; i < 2; i++) {
+        if (!text_real(line, i + 1, &part->cap[i], e)) return false;
+        if (part->cap[i] < 0 || part->cap[i] > SIZE_LIMIT || (part->cap[i] > 0 && part->cap[i] < SIZE_LEAST))
+            return text_error(line, i + 1, e, "a cap must be 0 (a half ball) or from %g to %g", SIZE_LEAST, SIZE_LIMIT);
+    }
+    return no_more_words(line, 3, e);
 }
 
 /* A part is complete when the next line begins something else; `where` is that line. */
@@ -124,9 +133,10 @@ bool body_parse(const Text *text, BodySpec *out, Error *e) {
     if (!read_header(&c, &line, out, e)) return false;
     BodyPartSpec *open = NULL;
     while (text_line(&c, &line, e)) {
-        if (text_is(&line, 0, "section")) {
-            if (!open) return text_error(&line, 0, e, "'section' outside of a part");
-            if (!read_section(&line, open, e)) return false;
+        bool section = text_is(&line, 0, "section"), caps = text_is(&line, 0, "caps");
+        if (section || caps) {
+            if (!open) return text_error(&line, 0, e, "'%s' outside of a part", section ? "section" : "caps");
+            if (!(section ? read_section : read_caps)(&line, open, e)) return false;
             continue;
         }
         if (!end_part(open, &line, e)) return false;
@@ -139,7 +149,7 @@ bool body_parse(const Text *text, BodySpec *out, Error *e) {
         } else if (text_is(&line, 0, "mirror")) {
             if (!read_mirror(&line, out, e)) return false;
         } else {
-            return text_error(&line, 0, e, "expected 'part', 'section' or 'mirror', found '%.*s'",
+            return text_error(&line, 0, e, "expected 'part', 'section', 'caps' or 'mirror', found '%.*s'",
                               line.length[0] > 40 ? 40 : line.length[0], line.word[0]);
         }
     }
@@ -163,7 +173,7 @@ static void write_number(double x, FILE *out) {
 }
 
 static bool same_part(const BodyPartSpec *a, const BodyPartSpec *b) {
-    if (a->role != b->role || a->nsections != b->nsections) return false;
+    if (a->role != b->role || a->nsections != b->nsections || a->cap[0] != b->cap[0] || a->cap[1] != b->cap[1]) return false;
     for (int i = 0; i < a->nsections; i++) {
         Section s = a->section[i], t = b->section[i];
         for (int k = 0; k < COLUMN_COUNT; k++)
@@ -195,6 +205,12 @@ bool body_write(const BodySpec *body, FILE *out) {
             Section s = part->section[k];
             fprintf(out, "section");
             for (int j = 0; j < COLUMN_COUNT; j++) write_number(*column_of(&s, j), out);
+            fprintf(out, "\n");
+        }
+        if (part->cap[0] > 0 || part->cap[1] > 0) {
+            fprintf(out, "caps");
+            write_number(part->cap[0], out);
+            write_number(part->cap[1], out);
             fprintf(out, "\n");
         }
     }

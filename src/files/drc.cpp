@@ -51,13 +51,15 @@ static bool fill(draco::Mesh *out, const Mesh *mesh, double unit, Error *e) {
     out->SetNumFaces(size_t(mesh->ntriangles));
     for (int t = 0; t < mesh->ntriangles; t++) {
         const int *v = mesh->triangle[t].v;
-        out->SetFace(draco::FaceIndex(uint32_t(t)),
-                     {draco::PointIndex(uint32_t(v[0])), draco::PointIndex(uint32_t(v[1])), draco::PointIndex(uint32_t(v[2]))});
+        out->SetFace(
+            draco::FaceIndex(uint32_t(t)),
+            {draco::PointIndex(uint32_t(v[0])), draco::PointIndex(uint32_t(v[1])), draco::PointIndex(uint32_t(v[2]))});
     }
     bool good = add_attribute(out, GeometryAttribute::POSITION, 3,
                               [=](uint32_t i, float *x) { put_vector(x, mesh->position[i], unit); });
     if (good && mesh->normal)
-        good = add_attribute(out, GeometryAttribute::NORMAL, 3, [=](uint32_t i, float *x) { put_vector(x, mesh->normal[i], 1); });
+        good = add_attribute(out, GeometryAttribute::NORMAL, 3,
+                             [=](uint32_t i, float *x) { put_vector(x, mesh->normal[i], 1); });
     if (good && mesh->u && mesh->w)
         good = add_attribute(out, GeometryAttribute::TEX_COORD, 2,
                              [=](uint32_t i, float *x) { x[0] = float(mesh->u[i]), x[1] = float(mesh->w[i]); });
@@ -73,7 +75,8 @@ static void set_options(draco::Encoder *encoder, const DrcOptions &o) {
     encoder->SetAttributeQuantization(GeometryAttribute::TEX_COORD, o.uv_bits > 0 ? o.uv_bits : 12);
 }
 
-bool drc_write(const char *path, const Mesh *mesh, double unit, const DrcOptions *options, long long *bytes, Error *e) try {
+bool drc_write(const char *path, const Mesh *mesh, double unit, const DrcOptions *options, long long *bytes,
+               Error *e) try {
     draco::Mesh encoded;
     if (!fill(&encoded, mesh, unit, e)) return false;
     draco::Encoder encoder;
@@ -103,8 +106,7 @@ static bool read_bytes(const char *path, std::vector<char> *out, Error *e) {
 }
 
 /* n values of a named attribute, `components` floats each. */
-template <typename Take>
-static void take_attribute(const draco::PointAttribute *attribute, uint32_t n, Take take) {
+template <typename Take> static void take_attribute(const draco::PointAttribute *attribute, uint32_t n, Take take) {
     for (uint32_t i = 0; i < n; i++) {
         float x[3] = {0, 0, 0};
         attribute->ConvertValue<float>(attribute->mapped_index(draco::PointIndex(i)), 3, x);
@@ -135,7 +137,8 @@ static bool take_triangles(const draco::Mesh &mesh, Arena *arena, Mesh *out, con
     for (uint32_t t = 0; t < mesh.num_faces(); t++) {
         for (int c = 0; c < 3; c++) {
             uint32_t v = mesh.face(draco::FaceIndex(t))[size_t(c)].value();
-            if (v >= mesh.num_points()) return error_set(e, ERR_INPUT, "'%s' has a triangle with a vertex that does not exist", path);
+            if (v >= mesh.num_points())
+                return error_set(e, ERR_INPUT, "'%s' has a triangle with a vertex that does not exist", path);
             out->triangle[t].v[c] = int(v);
         }
     }
@@ -160,8 +163,9 @@ bool drc_read(const char *path, Arena *arena, Mesh *out, Error *e) try {
         return error_set(e, ERR_INPUT, "'%s' has no vertices", path);
     uint32_t n = mesh.num_points();
     out->nvertices = int(n);
-    return take_vectors(position, n, arena, &out->position, e) && (!normal || take_vectors(normal, n, arena, &out->normal, e)) &&
-           (!uv || take_uv(uv, n, arena, out, e)) && take_triangles(mesh, arena, out, path, e);
+    return take_vectors(position, n, arena, &out->position, e) &&
+           (!normal || take_vectors(normal, n, arena, &out->normal, e)) && (!uv || take_uv(uv, n, arena, out, e)) &&
+           take_triangles(mesh, arena, out, path, e);
 } catch (const std::exception &problem) {
     return error_set(e, ERR_INPUT, "cannot decode '%s': %s", path, problem.what());
 } catch (...) {

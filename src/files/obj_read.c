@@ -21,8 +21,8 @@ typedef struct {
     LineKind grouping;         /* the lines that make groups */
     double (*uv)[2];
     Vec3 *normal;
-    bool *has_corner;          /* of a vertex: a face has used it */
-    bool all_uv, all_normal;   /* every corner so far had one */
+    bool *has_corner;        /* of a vertex: a face has used it */
+    bool all_uv, all_normal; /* every corner so far had one */
 } Reader;
 
 static bool is_line_end(char c) { return c == '\n' || c == '\r' || c == 0; }
@@ -64,7 +64,8 @@ static LineKind take_kind(Cursor *c) {
     const char *end = word_end(c->at);
     size_t length = (size_t)(end - c->at);
     LineKind kind = 0;
-    while (kind < LINE_OTHER && (strlen(line_words[kind]) != length || memcmp(c->at, line_words[kind], length) != 0)) kind++;
+    while (kind < LINE_OTHER && (strlen(line_words[kind]) != length || memcmp(c->at, line_words[kind], length) != 0))
+        kind++;
     c->at = end;
     return kind;
 }
@@ -81,7 +82,8 @@ static void count_lines(Reader *r) {
 }
 
 static bool take_number(Cursor *c, double *out, Error *e) {
-    if (!find_word(c)) return error_at(e, ERR_INPUT, text_place(c, c->at), "expected a number, found the end of the line");
+    if (!find_word(c))
+        return error_at(e, ERR_INPUT, text_place(c, c->at), "expected a number, found the end of the line");
     const char *end = word_end(c->at);
     if (text_number(c->at, end, out) != end || !isfinite(*out)) {
         int shown = end - c->at < 40 ? (int)(end - c->at) : 40;

@@ -16,7 +16,8 @@
 static bool cannot(const char *what, const char *path, int code, Error *e) {
     enum { SHOWN = 160 };
     size_t n = strlen(path);
-    return error_set(e, ERR_OUTPUT, "cannot %s '%s%s': %s", what, n > SHOWN ? "..." : "", n > SHOWN ? path + n - SHOWN : path, strerror(code));
+    return error_set(e, ERR_OUTPUT, "cannot %s '%s%s': %s", what, n > SHOWN ? "..." : "",
+                     n > SHOWN ? path + n - SHOWN : path, strerror(code));
 }
 
 static bool cannot_write(const char *path, int code, Error *e) { return cannot("write", path, code, e); }

@@ -39,12 +39,14 @@ static const Column frame_columns[] = {
     {"residual_cloth", "", KIND_INT, AT(stats.residual_cloth), "garment edges through the body"},
     {"inside", "", KIND_INT, AT(stats.inside), "garment vertices inside the body"},
     {"deepest", "m", KIND_REAL, AT(stats.deepest), "depth of the deepest of them"},
-    {"limb_edges", "", KIND_INT, AT(stats.limb_edges), "residual_edges of body parts that are none of the garment's colliders"},
+    {"limb_edges", "", KIND_INT, AT(stats.limb_edges),
+     "residual_edges of body parts that are none of the garment's colliders"},
     {"limb_cloth", "", KIND_INT, AT(stats.limb_cloth), "residual_cloth of those parts"},
     {"limb_inside", "", KIND_INT, AT(stats.limb_inside), "inside of those parts"},
     {"pinched", "", KIND_INT, AT(stats.pinched), "vertices where the body leaves no room for cloth"},
     {"capped", "", KIND_FLAG, AT(stats.capped), "1: a cap of sweeps, rounds or displacement was reached"},
-    {"restarted", "", KIND_FLAG, AT(stats.restarted), "1: the shape of the frame before was forgotten, the motion jumps"},
+    {"restarted", "", KIND_FLAG, AT(stats.restarted),
+     "1: the shape of the frame before was forgotten, the motion jumps"},
     {"pose_s", "s", KIND_SECONDS, AT(pose_s), "posing the body, shared by all garments"},
     {"global_s", "s", KIND_SECONDS, AT(stats.global_s), "global deformation"},
     {"test_s", "s", KIND_SECONDS, AT(stats.test_s), "intersection tests"},
@@ -134,7 +136,8 @@ static void put_real(double x, FILE *out) {
 }
 
 static void put_cell(const Column *c, const void *row, FILE *out) {
-    static const char *const rules[] = {[SPLIT_ADAPTIVE] = "adaptive", [SPLIT_UNIFORM] = "uniform", [SPLIT_NONE] = "none"};
+    static const char *const rules[] = {
+        [SPLIT_ADAPTIVE] = "adaptive", [SPLIT_UNIFORM] = "uniform", [SPLIT_NONE] = "none"};
     const void *at = (const char *)row + c->at;
     switch (c->kind) {
     case KIND_INT: fprintf(out, "%d", *(const int *)at); break;
@@ -163,7 +166,8 @@ static bool put_row(StatsFile *f, const void *row, Error *e) {
 }
 
 static void put_units(const StatsFile *f) {
-    fprintf(f->out.file, "# kitsuke %s: %s\n# units:", f->table == TABLE_STATS ? "stats" : "summary", tables[f->table].title);
+    fprintf(f->out.file, "# kitsuke %s: %s\n# units:", f->table == TABLE_STATS ? "stats" : "summary",
+            tables[f->table].title);
     for (size_t i = 0; i < tables[f->table].n; i++) {
         const Column *c = &tables[f->table].column[i];
         if (c->unit[0] && (c->kind != KIND_SECONDS || f->times)) fprintf(f->out.file, " %s %s;", c->name, c->unit);

@@ -115,10 +115,10 @@ static bool panels_meet(const Garment *g, const Seam *s, Why *why) {
 /* Which control point of a raw patch stands at place i of a side. */
 static int side_point(Side side, int i) {
     switch (side) {
-    case SIDE_START: return 4 * i;
-    case SIDE_END: return 4 * i + 3;
-    case SIDE_TOP: return i;
-    default: return 12 + i;
+    case SIDE_START: return i;
+    case SIDE_END: return 12 + i;
+    case SIDE_TOP: return 4 * i;
+    default: return 4 * i + 3;
     }
 }
 
@@ -212,12 +212,15 @@ static double height_of(const Figure *figure, const Ring *ring) {
 
 bool check_envelope(const Garment *g, const Panel *panel, Why *why) {
     Figure figure = figure_reference();
+    bool all = panel->nrows == g->nrings;
+    for (int i = 0; i < panel->nrows; i++) all = all && panel->row[i].ring == i;
+    if (!all)
+        return no(why, "panel '%s' does not have all rings in their order, '%s' to '%s': they are one envelope", panel->name,
+                  g->ring[0].name, g->ring[g->nrings - 1].name);
     for (int i = 0; i < panel->nrows; i++) {
         const Ring *ring = &g->ring[panel->row[i].ring];
         if (!torso_or_leg(ring->part))
             return no(why, "the envelope holds torso and legs, not the ring '%s' on '%s'", ring->name, role_name(ring->part));
-        if (panel->nrows != g->panel[0].nrows || panel->row[i].ring != g->panel[0].row[i].ring)
-            return no(why, "panel '%s' must have the rings of '%s': both are in one envelope", panel->name, g->panel[0].name);
         if (i > 0 && height_of(&figure, ring) >= height_of(&figure, &g->ring[panel->row[i - 1].ring]))
             return no(why, "ring '%s' must lie below '%s' in an envelope", ring->name, g->ring[panel->row[i - 1].ring].name);
     }

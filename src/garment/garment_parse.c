@@ -227,6 +227,7 @@ static bool read_ring(Parser *p, const Line *line, Error *e) {
     Garment *g = p->g;
     bool given[OPTION_COUNT] = {false};
     if (g->nrings == GARMENT_RINGS_MAX) return text_error(line, 0, e, "more than %d rings", GARMENT_RINGS_MAX);
+    if (g->follow == FOLLOW_ENVELOPE && g->npanels) return text_error(line, 0, e, "the rings of an envelope must stand above its panels");
     Ring *ring = &g->ring[g->nrings];
     memset(ring, 0, sizeof *ring);
     if (!read_new_name(g, line, ring->name, e) || !read_part(line, 2, &ring->part, e) ||

@@ -1,0 +1,100 @@
+/* The Bernstein form, de Casteljau's split and the blossom describe one surface. */
+#include "geometry/bezier.h"
+
+#include <stdint.h>
+
+#include "tap.h"
+
+static uint64_t state = 88172645463325252u;
+
+static double random_unit(void) {
+    state ^= state << 13;
+    state ^= state >> 7;
+    state ^= state << 17;
+    return (double)(state >> 11) / 9007199254740992.0;
+}
+
+static Patch random_patch(void) {
+    Patch p;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) p.p[i][j] = vec(random_unit(), random_unit(), random_unit());
+    return p;
+}
+
+static void split_keeps_the_surface(void) {
+    double worst = 0, part_worst = 0;
+    for (int n = 0; n < 200; n++) {
+        Patch patch = random_patch(), child[4];
+        bezier_split(&patch, child);
+        for (int k = 0; k < 4; k++) {
+            double u = random_unit(), w = random_unit(), u0 = 0.5 * (k / 2), w0 = 0.5 * (k % 2);
+            Vec3 whole = bezier_point(&patch, u0 + 0.5 * u, w0 + 0.5 * w, NULL, NULL);
+            Patch part = bezier_part(&patch, u0, u0 + 0.5, w0, w0 + 0.5);
+            worst = fmax(worst, vec_dist(whole, bezier_point(&child[k], u, w, NULL, NULL)));
+            for (int c = 0; c < 16; c++) part_worst = fmax(part_worst, vec_dist(part.p[c / 4][c % 4], child[k].p[c / 4][c % 4]));
+        }
+    }
+    NEAR(worst, 0, 1e-14, "the four children lie on the patch");
+    NEAR(part_worst, 0, 1e-14, "the blossom gives the same control points as de Casteljau");
+}
+
+static void children_share_their_borders(void) {
+    Patch patch = random_patch(), child[4];
+    bezier_split(&patch, child);
+    bool same = true;
+    for (int k = 0; k < 4; k++) {
+        same = same && vec_dist(child[0].p[3][k], child[2].p[0][k]) == 0 && vec_dist(child[1].p[3][k], child[3].p[0][k]) == 0;
+        same = same && vec_dist(child[0].p[k][3], child[1].p[k][0]) == 0 && vec_dist(child[2].p[k][3], child[3].p[k][0]) == 0;
+    }
+    OK(same, "neighbouring children have literally the same control points: 49, not 64");
+}
+
+static void derivatives_are_limits(void) {
+    double worst = 0, h = 1e-6;
+    for (int n = 0; n < 100; n++) {
+        Patch patch = random_patch();
+        double u = 0.1 + 0.8 * random_unit(), w = 0.1 + 0.8 * random_unit();
+        Vec3 du, dw;
+        bezier_point(&patch, u, w, &du, &dw);
+        Vec3 nu = vec_scale(vec_sub(bezier_point(&patch, u + h, w, NULL, NULL), bezier_point(&patch, u - h, w, NULL, NULL)), 0.5 / h);
+        Vec3 nw = vec_scale(vec_sub(bezier_point(&patch, u, w + h, NULL, NULL), bezier_point(&patch, u, w - h, NULL, NULL)), 0.5 / h);
+        worst = fmax(worst, fmax(vec_dist(du, nu), vec_dist(dw, nw)));
+    }
+    NEAR(worst, 0, 1e-8, "du and dw are the central differences' limits");
+}
+
+static void basis_is_a_partition(void) {
+    double worst = 0;
+    for (int n = 0; n <= 100; n++) {
+        double b[4], d[4];
+        bezier_basis(n / 100.0, b, d);
+        worst = fmax(worst, fabs(b[0] + b[1] + b[2] + b[3] - 1) + fabs(d[0] + d[1] + d[2] + d[3]));
+    }
+    NEAR(worst, 0, 1e-14, "the basis sums to one and its slopes to zero");
+}
+
+static void normals(void) {
+    Patch flat;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) flat.p[i][j] = vec(i, j, 0);
+    NEAR(bezier_normal(&flat, 0.3, 0.7).z, 1, 1e-15, "a flat patch points along du x dw");
+    for (int j = 0; j < 4; j++) flat.p[0][j] = vec(0, 1.5, 0);
+    NEAR(bezier_normal(&flat, 0, 0.5).z, 1, 1e-12, "at a pole the normal is taken from beside it");
+}
+
+static void hermite(void) {
+    Vec3 out[4], a = {0, 1, 2}, b = {3, 1, 4}, da = {1, 0, 0}, db = {0, 0, 2};
+    bezier_from_hermite(a, da, b, db, 0.5, out);
+    NEAR(vec_dist(vec_scale(vec_sub(out[1], out[0]), 3 / 0.5), da), 0, 1e-14, "a Hermite segment leaves with its slope");
+    NEAR(vec_dist(vec_scale(vec_sub(out[3], out[2]), 3 / 0.5), db), 0, 1e-14, "and arrives with its slope");
+}
+
+int main(void) {
+    split_keeps_the_surface();
+    children_share_their_borders();
+    derivatives_are_limits();
+    basis_is_a_partition();
+    normals();
+    hermite();
+    return tap_done();
+}

@@ -1,0 +1,255 @@
+/* The surface: shared names, the lattice, the displacement field and the mesh, for every shipped
+   garment on the reference figure, under random refinement and in random poses. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "dress/follow.h"
+#include "dress/frame.h"
+#include "dress/tessellate.h"
+#include "tap.h"
+
+static const char *const SHIPPED[] = {"skirt", "paper-skirt", "trousers", "tshirt"};
+enum { NSHIPPED = 4, DETAIL = 4, DEPTH = 2 };
+
+static Arena arena;
+static Error error;
+static unsigned state = 12345;
+
+static double random_unit(void) {
+    state = state * 1664525u + 1013904223u;
+    return (state >> 8) / 16777216.0;
+}
+
+static void need(bool good) {
+    if (good) return;
+    error_print(&error, stderr);
+    exit(1);
+}
+
+typedef struct {
+    Figure figure;
+    Body body;
+    Garment *garment;
+    Fit fit;
+    Lattice lattice;
+    Leaves leaves;
+    Sheet sheet;
+    Patch *root;
+    Follower follower;
+} Scene;
+
+static Scene *open_scene(const char *name) {
+    char path[128];
+    snprintf(path, sizeof path, "garments/%s.garment", name);
+    Scene *s = ARENA_NEW(&arena, Scene, 1, &error);
+    need(s != NULL);
+    s->figure = figure_reference();
+    need(body_fit(body_default(), &s->figure, 16, &arena, &s->body, &error));
+    s->garment = ARENA_NEW(&arena, Garment, 1, &error);
+    need(s->garment != NULL);
+    need(garment_read(path, &arena, s->garment, &error));
+    need(fit_garment(s->garment, &s->figure, &s->body, &arena, &s->fit, &error));
+    need(lattice_build(&s->fit, DETAIL, DEPTH, &arena, &s->lattice, &error));
+    need(leaves_reserve(&s->leaves, &s->lattice, &arena, &error));
+    need(sheet_reserve(&s->sheet, &s->lattice, &arena, &error));
+    need(follow_reserve(&s->follower, &s->fit, &s->figure, &s->body, &arena, &error));
+    s->root = ARENA_NEW(&arena, Patch, s->fit.npatches, &error);
+    need(s->root != NULL);
+    return s;
+}
+
+/* Every bone turned a little about its start, children with their parents' turn left out: enough
+   to make all control points move differently. */
+static Pose random_pose(const Figure *f) {
+    Pose p;
+    for (int r = 0; r < ROLE_COUNT; r++) {
+        Vec3 axis = vec_unit_or(vec(random_unit() - 0.5, random_unit() - 0.5, random_unit() - 0.5), vec(1, 0, 0));
+        Mat3 m = mat_axis_angle(axis, 0.6 * random_unit());
+        p.bone[r] = (Rigid){m, vec_sub(f->start[r], mat_apply(m, f->start[r]))};
+    }
+    return p;
+}
+
+static void shared_points_are_equal(Scene *s, const char *name) {
+    Pose pose = random_pose(&s->figure);
+    follow_pose(&s->follower, &pose, s->root);
+    int shared = 0, different = 0;
+    for (int p = 0; p < s->fit.npatches; p++)
+        for (int q = 0; q < p; q++)
+            for (int a = 0; a < 16; a++)
+                for (int b = 0; b < 16; b++) {
+                    if (s->fit.patch[p].point[a] != s->fit.patch[q].point[b]) continue;
+                    shared++;
+                    different += memcmp(&s->root[p].p[a / 4][a % 4], &s->root[q].p[b / 4][b % 4], sizeof(Vec3)) != 0;
+                }
+    OK(shared > 0 && different == 0, "%s: %d shared control points are literally equal in a random pose", name, shared);
+}
+
+/* Places on shared edges get the same displacement from either patch, and no slope across. */
+static void field_is_smooth(Scene *s, const char *name) {
+    const Lattice *l = &s->lattice;
+    double gap = 0, slope = 0;
+    Vec3 *seen = calloc((size_t)l->nplaces, sizeof *seen), *d[LATTICE_LEVELS];
+    bool *known = calloc((size_t)l->nplaces, sizeof *known);
+    for (int level = 0; level <= DEPTH; level++) {
+        d[level] = calloc((size_t)l->level[level].count, sizeof(Vec3));
+        for (int v = 0; v < l->level[level].count; v++) d[level][v] = vec(random_unit(), random_unit(), random_unit());
+    }
+    for (int p = 0; p < s->fit.npatches; p++)
+        for (int i = 0; i <= l->side; i++)
+            for (int j = 0; j <= l->side; j++) {
+                Vec3 sum = {0, 0, 0}, across = {0, 0, 0};
+                for (int level = 0; level <= DEPTH; level++) {
+                    int id[4];
+                    double w[4], wu[4], ww[4];
+                    lattice_weights(l, level, p, i, j, id, w, wu, ww);
+                    for (int k = 0; k < 4; k++) {
+                        sum = vec_mad(sum, d[level][id[k]], w[k]);
+                        if (i == 0 || i == l->side) across = vec_mad(across, d[level][id[k]], wu[k]);
+                    }
+                }
+                int place = lattice_place(l, p, i, j);
+                if (known[place]) gap = fmax(gap, vec_dist(sum, seen[place]));
+                seen[place] = sum;
+                known[place] = true;
+                slope = fmax(slope, vec_len(across));
+            }
+    NEAR(gap, 0, 1e-14, "neighbouring patches displace their common edge alike");
+    NEAR(slope, 0, 1e-13, "the field has no slope across an edge");
+    for (int level = 0; level <= DEPTH; level++) free(d[level]);
+    free(seen);
+    free(known);
+    (void)name;
+}
+
+typedef struct { int from, to; } Half;
+
+static int compare_halves(const void *a, const void *b) { return memcmp(a, b, sizeof(Half)); }
+
+static bool has_half(const Half *h, size_t n, Half key) { return bsearch(&key, h, n, sizeof *h, compare_halves) != NULL; }
+
+/* Loops of edges that only one triangle uses. A border vertex has one edge in and one out. */
+static int border_loops(const Sheet *s, bool *sound) {
+    size_t n = 3 * (size_t)s->ntriangles;
+    Half *half = calloc(n, sizeof *half);
+    int *next = malloc((size_t)s->nvertices * sizeof *next), loops = 0;
+    for (int t = 0; t < s->ntriangles; t++)
+        for (int c = 0; c < 3; c++) half[3 * t + c] = (Half){s->triangle[t].v[c], s->triangle[t].v[(c + 1) % 3]};
+    qsort(half, n, sizeof *half, compare_halves);
+    memset(next, -1, (size_t)s->nvertices * sizeof *next);
+    *sound = true;
+    for (size_t k = 0; k < n; k++) {
+        if (k && compare_halves(&half[k - 1], &half[k]) == 0) *sound = false; /* two triangles run the same way */
+        if (has_half(half, n, (Half){half[k].to, half[k].from})) continue;
+        if (next[half[k].from] >= 0) *sound = false;
+        next[half[k].from] = half[k].to;
+    }
+    for (int v = 0; v < s->nvertices; v++)
+        if (next[v] >= 0) {
+            loops++;
+            for (int at = v; next[at] >= 0;) {
+                int to = next[at];
+                next[at] = -1;
+                at = to;
+            }
+        }
+    free(half);
+    free(next);
+    return loops;
+}
+
+static void split_at_random(Scene *s) {
+    leaves_fill(&s->leaves, 0);
+    for (int k = 0; k < s->fit.npatches; k++) {
+        int level = (int)(random_unit() * (DEPTH + 1)), cells = 1 << level;
+        leaves_split(&s->leaves, (int)(random_unit() * s->fit.npatches), level, (int)(random_unit() * cells), (int)(random_unit() * cells));
+    }
+}
+
+static double smallest_area(const Scene *s) {
+    double least = INFINITY;
+    for (int t = 0; t < s->sheet.ntriangles; t++) {
+        Vec3 x[3];
+        for (int c = 0; c < 3; c++) {
+            int n = s->lattice.side + 1, o = s->lattice.owner[s->sheet.place[s->sheet.triangle[t].v[c]]];
+            x[c] = bezier_point(&s->root[o / (n * n)], (double)(o / n % n) / (n - 1), (double)(o % n) / (n - 1), NULL, NULL);
+        }
+        least = fmin(least, vec_len(vec_cross(vec_sub(x[1], x[0]), vec_sub(x[2], x[0]))));
+    }
+    return least;
+}
+
+static void meshes_are_watertight(Scene *s, const char *name, int openings) {
+    bool all_sound = true, all_loops = true, all_areas = true, leaves_add_up = true;
+    Pose rest = figure_rest_pose();
+    follow_pose(&s->follower, &rest, s->root);
+    for (int k = 0; k < 40; k++) {
+        bool sound;
+        if (k == 0) leaves_fill(&s->leaves, 0);
+        else if (k == 1) leaves_fill(&s->leaves, DEPTH);
+        else split_at_random(s);
+        tessellate(&s->sheet, &s->leaves);
+        int loops = border_loops(&s->sheet, &sound);
+        all_sound = all_sound && sound;
+        all_loops = all_loops && loops == openings;
+        all_areas = all_areas && smallest_area(s) > 1e-9;
+        leaves_add_up = leaves_add_up && (leaves_count(&s->leaves) - s->fit.npatches) % 3 == 0;
+    }
+    OK(s->fit.nopenings == openings, "%s has %d openings (%d)", name, openings, s->fit.nopenings);
+    OK(all_sound, "%s: every edge has one triangle on either side, at any difference of levels", name);
+    OK(all_loops, "%s: the border is its openings and nothing else", name);
+    OK(all_areas, "%s: no triangle without area", name);
+    OK(leaves_add_up, "%s: leaves number patches + 3 splits", name);
+}
+
+static void outward(Scene *s, const char *name) {
+    Pose rest = figure_rest_pose();
+    follow_pose(&s->follower, &rest, s->root);
+    int inwards = 0;
+    for (int p = 0; p < s->fit.npatches; p++) {
+        Vec3 x = bezier_point(&s->root[p], 0.5, 0.5, NULL, NULL), n = bezier_normal(&s->root[p], 0.5, 0.5);
+        if (s->fit.patch[p].flip) n = vec_scale(n, -1);
+        double nearest = INFINITY, towards = 0;
+        for (int b = 0; b < s->body.nparts; b++) {
+            if (!(s->fit.patch[p].collide >> s->body.part[b].role & 1)) continue;
+            const BodyPart *part = &s->body.part[b];
+            Vec3 normal, local = rigid_unapply(part->frame, x);
+            double d = body_distance(part, local, 1, &normal);
+            if (d < nearest) nearest = d, towards = vec_dot(mat_apply(part->frame.r, normal), n);
+        }
+        inwards += towards < 0;
+    }
+    OK(inwards == 0, "%s: all %d patches face away from the body", name, s->fit.npatches);
+}
+
+/* Dressed in the canonical stance: nothing intersects, nothing is far away. */
+static void rest_is_clear(Scene *s, const char *name) {
+    BodyFrame *body = ARENA_NEW(&arena, BodyFrame, 1, &error);
+    Dresser *d;
+    Mesh mesh;
+    FrameStats stats;
+    Pose rest = figure_rest_pose();
+    need(body != NULL && body_frame_init(body, &s->body, 1, &arena, &error));
+    need(dresser_open(s->garment, &s->figure, &s->body, &(DressOptions){0}, &arena, &d, &error));
+    body_frame_pose(body, &rest);
+    dresser_frame(d, body, 1 / 30.0, true, &mesh, &stats);
+    OK(stats.residual_edges + stats.residual_cloth + stats.inside == 0, "%s: nothing shows through in the canonical stance", name);
+    OK(stats.displacement < 0.03, "%s: its rest shape fits the figure (moved %.1f mm)", name, 1000 * stats.displacement);
+    double off = 0;
+    for (int v = 0; v < mesh.nvertices; v++) off = fmax(off, fabs(vec_len(mesh.normal[v]) - 1));
+    NEAR(off, 0, 1e-12, "normals are unit vectors");
+}
+
+int main(void) {
+    static const int openings[NSHIPPED] = {2, 2, 3, 4};
+    for (int k = 0; k < NSHIPPED; k++) {
+        Scene *s = open_scene(SHIPPED[k]);
+        shared_points_are_equal(s, SHIPPED[k]);
+        field_is_smooth(s, SHIPPED[k]);
+        meshes_are_watertight(s, SHIPPED[k], openings[k]);
+        outward(s, SHIPPED[k]);
+        rest_is_clear(s, SHIPPED[k]);
+    }
+    arena_free(&arena);
+    return tap_done();
+}
