@@ -12,13 +12,17 @@ enum { NESTING_MAX = 1000, NAME_MAX_BYTES = 1000, FIRST_JOINTS = 128 };
 static const char *const channel_names[] = {"Xposition", "Yposition", "Zposition",
                                             "Xrotation", "Yrotation", "Zrotation"};
 
+typedef struct {
+    bool offset, channels;
+} Seen;
+
 /* The head while it is read. */
 typedef struct {
     Opening *o;
     Joint *joint;
     int njoints, capacity;
     int open, depth;      /* the joint whose brace is open, -1 for none; braces open */
-    bool *offset, *ended; /* per joint: OFFSET seen, CHANNELS seen */
+    Seen *seen;           /* per joint */
     bool await_brace;     /* a joint was named and its '{' must follow */
 } Head;
 
@@ -28,14 +32,15 @@ static bool grow(Head *h, Error *e) {
     if (h->njoints < h->capacity) return true;
     int capacity = h->capacity ? 2 * h->capacity : FIRST_JOINTS;
     Joint *joint = ARENA_NEW(h->o->scratch, Joint, capacity, e);
-    bool *offset = ARENA_NEW(h->o->scratch, bool, capacity, e), *ended = ARENA_NEW(h->o->scratch, bool, capacity, e);
-    if (!joint || !offset || !ended) return false;
+    Seen *seen = ARENA_NEW(h->o->scratch, Seen, capacity, e);
+    if (!joint || !seen) return false;
     if (h->njoints) {
         memcpy(joint, h->joint, (size_t)h->njoints * sizeof *joint);
-        memcpy(offset, h->offset, (size_t)h->njoints * sizeof *offset);
-        memcpy(ended, h->ended, (size_t)h->njoints * sizeof *ended);
+        memcpy(seen, h->seen, (size_t)h->njoints * sizeof *seen);
     }
-    h->joint = joint, h->offset = offset, h->ended = ended, h->capacity = capacity;
+    h->joint = joint;
+    h->seen = seen;
+    h->capacity = capacity;
     return true;
 }
 
@@ -55,8 +60,8 @@ static bool add_joint(Head *h, const char *name, bool is_end, Error *e) {
 static Word rest_of_line(Stream *s) {
     const char *p = s->at;
     if (*p == '"')
-        for (p++; p < s->end && *p != '"' && *p != '\n' && *p != '\r';) p++;
-    while (p < s->end && *p != '\n' && *p != '\r' && *p != '{') p++;
+        for (p++; *p && !strchr("\"\n\r", *p);) p++;
+    while (*p && !strchr("\n\r{", *p)) p++;
     Word w = {s->at, 0, false};
     const char *end = p;
     while (end > s->at && (end[-1] == ' ' || end[-1] == '\t')) end--;
@@ -107,8 +112,8 @@ static bool read_offset(Head *h, Error *e) {
     Joint *j = &h->joint[h->open];
     double v[3] = {0};
     char what[128];
-    if (h->offset[h->open]) return stream_error(s, e, "joint '%.60s' has a second OFFSET", j->name);
-    h->offset[h->open] = true;
+    if (h->seen[h->open].offset) return stream_error(s, e, "joint '%.60s' has a second OFFSET", j->name);
+    h->seen[h->open].offset = true;
     for (int i = 0; i < 3; i++) {
         NumberResult r = stream_number(s, &v[i]);
         if (r <= NUMBER_GLUED) continue;
@@ -123,13 +128,13 @@ static bool read_channels(Head *h, Error *e) {
     Stream *s = &h->o->in;
     Joint *j = &h->joint[h->open];
     double count = 0;
-    if (h->ended[h->open]) return stream_error(s, e, "joint '%.60s' has CHANNELS twice", j->name);
-    h->ended[h->open] = true;
+    if (h->seen[h->open].channels) return stream_error(s, e, "joint '%.60s' has CHANNELS twice", j->name);
+    h->seen[h->open].channels = true;
     NumberResult r = stream_number(s, &count);
     if (r > NUMBER_GLUED) return stream_refuse(s, r, "the number of CHANNELS", e);
     int most = j->is_end ? 0 : 6;
     if (!(count >= 0 && count <= most) || count != (int)count)
-        return stream_error(s, e, "%g CHANNELS: %s", count, j->is_end ? "an End Site has none" : "a joint has 0 to 6");
+        return stream_error(s, e, "%.0f CHANNELS: %s", count, j->is_end ? "an End Site has none" : "a joint has 0 to 6");
     for (; j->nchannels < (int)count; j->nchannels++) {
         Word w = stream_peek(s);
         int kind = 0;
@@ -155,7 +160,7 @@ static bool open_brace(Head *h, Error *e) {
 static bool close_brace(Head *h, Error *e) {
     Stream *s = &h->o->in;
     if (h->open < 0) return stream_error(s, e, "'}' without '{'");
-    if (!h->offset[h->open]) return stream_error(s, e, "joint '%.60s' has no OFFSET", joint_name(h, h->open));
+    if (!h->seen[h->open].offset) return stream_error(s, e, "joint '%.60s' has no OFFSET", joint_name(h, h->open));
     s->at++;
     h->open = h->joint[h->open].parent;
     h->depth--;
@@ -171,7 +176,7 @@ static const struct {
     bool inside, in_end;
 } items[] = {
     {"ROOT", read_root, false, false},  {"JOINT", read_joint, true, false},      {"End", read_end, true, false},
-    {"OFFSET", read_offset, true, true}, {"CHANNELS", read_channels, true, true},
+    {"EndSite", read_end, true, false}, {"OFFSET", read_offset, true, true}, {"CHANNELS", read_channels, true, true},
 };
 
 static bool read_item(Head *h, Error *e) {
@@ -244,7 +249,8 @@ static bool read_frame_time(Opening *o, Error *e) {
     stream_space(s);
     Mark start = stream_mark(s);
     NumberResult r = stream_number(s, &t);
-    if (r > NUMBER_GLUED) return stream_refuse(s, r, "the frame time", e);
+    if (r > NUMBER_GLUED && !(o->options->fps > 0)) return stream_refuse(s, r, "the frame time", e);
+    if (r > NUMBER_GLUED) stream_word(s);
     Mark behind = stream_mark(s);
     stream_seek(s, start);
     bool good = source_rate(o, t, e);
@@ -273,115 +279,122 @@ static bool read_counts(Opening *o, int *frames, Error *e) {
 /* How the numbers lie on lines. It decides nothing while it fits: numbers are a stream. It
    tells a motion of another skeleton from a file with some frames more or less. */
 typedef struct {
-    int first;        /* values in the first line */
-    int current;      /* in this line so far */
-    int lines;        /* complete ones */
-    Mark start, odd;  /* of this line; of the first line that differs from the first */
-    int odd_values;
-    bool uneven;      /* there is such a line */
+    int first;       /* values in the first line; 0: it is not complete */
+    int current;     /* in this line so far */
+    int lines;       /* complete ones */
+    Mark start, odd; /* of this line; of the first line that differs from the first */
+    int odd_values;  /* in that line; 0: there is none */
 } Lines;
 
 static void end_line(Lines *l) {
     if (l->lines == 0) l->first = l->current;
-    else if (l->current != l->first && !l->uneven) l->uneven = true, l->odd = l->start, l->odd_values = l->current;
+    else if (l->current != l->first && !l->odd_values) l->odd = l->start, l->odd_values = l->current;
     if (l->lines < INT_MAX) l->lines++;
     l->current = 0;
 }
 
-/* All values of the motion have been read (or the file has ended): if the number of frames
-   is not the one announced, do the lines show that head and motion do not belong together? */
-static bool check_lines(Opening *o, const Lines *l, Mark first, int announced, bool more, Error *e) {
-    Stream *s = &o->in;
-    int n = o->motion->skeleton.nchannels, k = l->first;
-    if (o->source->nframes == announced && !more) return true;
-    if (k == n && l->uneven) {
-        stream_seek(s, l->odd);
-        return stream_error(s, e, "a line of %d values where %d channels ask for %d: head and motion differ",
-                            l->odd_values, n, n);
-    }
-    if (k == n || l->uneven) return true;
-    bool wrapped = k < n && n % k == 0 && l->lines > announced;
-    bool several = k > n && k % n == 0 && l->lines < announced && !more;
-    if (wrapped || several) return true;
-    stream_seek(s, first);
-    return stream_error(s, e, "lines of %d values where %d channels ask for %d: head and motion are of different skeletons",
-                        k, n, n);
-}
+/* All frames of a motion while they are read for the first time. */
+typedef struct {
+    Opening *o;
+    int announced, frame; /* frames that the head promises; complete ones so far */
+    double *row;
+    Lines lines;
+    Mark first;       /* the first value */
+    bool glued, cut;  /* seen: numbers without a blank between them; the end within a frame */
+} Scan;
 
-static bool refuse_value(Opening *o, NumberResult r, int frame, int column, Error *e) {
-    const Skeleton *k = &o->motion->skeleton;
+static bool refuse_value(Scan *c, NumberResult r, int column, Error *e) {
+    const Skeleton *k = &c->o->motion->skeleton;
     int i = k->njoints - 1;
     while (i > 0 && (k->joint[i].nchannels == 0 || k->joint[i].first_channel > column)) i--;
     const Joint *j = &k->joint[i];
     char what[160];
-    snprintf(what, sizeof what, "frame %d, joint '%.60s', %s", frame + 1, j->name,
+    snprintf(what, sizeof what, "frame %d, joint '%.60s', %s", c->frame + 1, j->name,
              channel_names[j->channel[column - j->first_channel]]);
-    return stream_refuse(&o->in, r, what, e);
+    return stream_refuse(&c->o->in, r, what, e);
 }
 
-typedef struct {
-    Lines lines;
-    Mark first;
-    bool glued; /* told about numbers without a blank between them */
-    double *row;
-    int announced;
-} Scan;
-
 /* Reads one frame, checking and counting. False at the end of the text or with an error. */
-static bool scan_frame(Opening *o, Scan *c, int frame, Error *e) {
-    Stream *s = &o->in;
-    Lines *l = &c->lines;
-    int n = o->motion->skeleton.nchannels;
-    for (int i = 0; i < n; i++) {
-        int line = s->line;
-        if (stream_space(s) || s->line != line) {
-            if (l->current) end_line(l);
-            l->start = stream_mark(s);
+static bool scan_frame(Scan *c, Error *e) {
+    Stream *s = &c->o->in;
+    for (int i = 0; i < c->o->motion->skeleton.nchannels; i++) {
+        if (stream_space(s)) {
+            if (c->lines.current) end_line(&c->lines);
+            c->lines.start = stream_mark(s);
         }
-        if (i == 0) source_mark(o->source, frame, stream_mark(s));
+        if (i == 0) source_mark(c->o->source, c->frame, stream_mark(s));
         NumberResult r = stream_number(s, &c->row[i]);
         if (r == NUMBER_END || r == NUMBER_CUT) {
-            if (i || r == NUMBER_CUT)
-                stream_note(s, o->notes, "the file ends within frame %d, which is left out", frame + 1);
+            c->cut = i > 0 || r == NUMBER_CUT;
             return false;
         }
+        if (r > NUMBER_GLUED) return refuse_value(c, r, i, e);
         if (r == NUMBER_GLUED && !c->glued) {
             c->glued = true;
-            stream_note(s, o->notes, "no blank between two numbers, split at the sign");
+            stream_note(s, c->o->notes, "no blank between two numbers, split at the sign");
         }
-        if (r > NUMBER_GLUED) return refuse_value(o, r, frame, i, e);
-        l->current++;
+        c->lines.current++;
     }
     return true;
 }
 
-static void note_rest(Opening *o, int announced) {
-    Stream *s = &o->in;
+/* Behind the last value that was read. Ends its line where that is complete: a line that the
+   end of the file may have cut tells nothing. True if more values follow. */
+static bool end_last_line(Scan *c) {
+    Stream *s = &c->o->in;
+    Lines *l = &c->lines;
     double x;
+    bool more = false;
+    while (l->lines == 0 && stream_blanks(s) && stream_number(s, &x) <= NUMBER_GLUED) more = true, l->current++;
+    bool whole = stream_space(s) || c->frame == c->announced;
+    if (l->current && (l->lines ? l->current == l->first : whole)) end_line(l);
     Mark here = stream_mark(s);
-    bool number = stream_number(s, &x) <= NUMBER_GLUED;
+    more = stream_number(s, &x) <= NUMBER_GLUED || more;
     stream_seek(s, here);
-    if (number) stream_note(s, o->notes, "more values than the %d frames announced, left out", announced);
-    else stream_note(s, o->notes, "text behind the frames, left out");
+    return more;
+}
+
+/* All values have been read, or the file has ended. If there are not as many frames as
+   announced: do the lines show that head and motion do not belong together? */
+static bool check_lines(Scan *c, bool more, Error *e) {
+    Stream *s = &c->o->in;
+    const Lines *l = &c->lines;
+    int n = c->o->motion->skeleton.nchannels, k = l->first;
+    if (k == 0 || (c->frame == c->announced && !more)) return true;
+    if (k == n && l->odd_values) {
+        stream_seek(s, l->odd);
+        return stream_error(s, e, "a line of %d values for %d channels: head and motion differ", l->odd_values, n);
+    }
+    if (k == n || l->odd_values) return true;
+    bool wrapped = k < n && n % k == 0 && l->lines > c->announced;
+    bool several = k > n && k % n == 0 && l->lines < c->announced && !more;
+    if (wrapped || several) return true;
+    stream_seek(s, c->first);
+    return stream_error(s, e, "lines of %d values for %d channels: head and motion are of different skeletons", k, n);
+}
+
+static void note_rest(Scan *c, bool more) {
+    Stream *s = &c->o->in;
+    Notes *notes = c->o->notes;
+    if (c->cut) stream_note(s, notes, "the file ends within frame %d of %d, which is left out", c->frame + 1, c->announced);
+    else if (c->frame < c->announced) stream_note(s, notes, "%d frames announced, but %d found", c->announced, c->frame);
+    else if (more) stream_note(s, notes, "values behind the %d announced frames, left out", c->announced);
+    else if (!stream_ended(s)) stream_note(s, notes, "text behind the frames, left out");
 }
 
 static bool scan_frames(Opening *o, int announced, Error *e) {
     Stream *s = &o->in;
-    Scan c = {.row = ARENA_NEW(o->scratch, double, o->motion->skeleton.nchannels, e), .announced = announced};
-    if (!c.row) return false;
+    Scan c = {.o = o, .announced = announced};
+    if (!(c.row = ARENA_NEW(o->scratch, double, o->motion->skeleton.nchannels, e))) return false;
     stream_space(s);
     c.first = c.lines.start = stream_mark(s);
-    int frame = 0;
-    while (frame < announced && scan_frame(o, &c, frame, e)) source_sample(o, frame++, c.row);
+    for (; c.frame < announced && scan_frame(&c, e); c.frame++) source_sample(o, c.frame, c.row);
     if (e->kind != ERR_NONE || !stream_sound(s, e)) return false;
-    o->source->nframes = frame;
-    bool broken = stream_space(s);
-    if ((broken || stream_ended(s)) && c.lines.current) end_line(&c.lines);
-    bool more = !stream_ended(s) && ((*s->at >= '0' && *s->at <= '9') || *s->at == '-' || *s->at == '.');
-    if (!check_lines(o, &c.lines, c.first, announced, more, e)) return false;
-    if (frame < announced && frame > 0)
-        stream_note(s, o->notes, "%d frames announced, %d complete ones found", announced, frame);
-    if (!stream_ended(s)) note_rest(o, announced);
+    bool more = end_last_line(&c);
+    if (!check_lines(&c, more, e)) return false;
+    if (c.frame == 0) return stream_error(s, e, "the file ends before the first frame is complete");
+    note_rest(&c, more);
+    o->source->nframes = c.frame;
     return true;
 }
 

@@ -20,7 +20,7 @@ static const double frame_time_low = 1.0 / 480, frame_time_high = 1.0 / 5;
 /* Copies what cannot be read by position (standard input, a pipe) to a file without a name. */
 static bool spool(int from, const char *name, int *fd, Error *e) {
     FILE *f = tmpfile();
-    if (!f) return error_set(e, ERR_INTERNAL, "cannot make a temporary file for '%s': %s", name, strerror(errno));
+    if (!f) return error_set(e, ERR_OUTPUT, "cannot make a temporary file for '%s': %s", name, strerror(errno));
     char block[1 << 14];
     ssize_t n;
     while ((n = read(from, block, sizeof block)) != 0) {
@@ -28,14 +28,14 @@ static bool spool(int from, const char *name, int *fd, Error *e) {
         if (n < 0) error_set(e, ERR_INPUT, "cannot read '%s': %s", name, strerror(errno));
         else if (memchr(block, 0, (size_t)n)) error_set(e, ERR_INPUT, "'%s' is a binary file, not text", name);
         else if (fwrite(block, 1, (size_t)n, f) != (size_t)n)
-            error_set(e, ERR_INTERNAL, "cannot keep '%s' in a temporary file: %s", name, strerror(errno));
+            error_set(e, ERR_OUTPUT, "cannot keep '%s' in a temporary file: %s", name, strerror(errno));
         else continue;
         break;
     }
     if (e->kind == ERR_NONE && fflush(f) != 0)
-        error_set(e, ERR_INTERNAL, "cannot keep '%s' in a temporary file: %s", name, strerror(errno));
+        error_set(e, ERR_OUTPUT, "cannot keep '%s' in a temporary file: %s", name, strerror(errno));
     if (e->kind == ERR_NONE && (*fd = dup(fileno(f))) < 0)
-        error_set(e, ERR_INTERNAL, "cannot keep '%s' open: %s", name, strerror(errno));
+        error_set(e, ERR_OUTPUT, "cannot keep '%s' open: %s", name, strerror(errno));
     fclose(f);
     return e->kind == ERR_NONE;
 }
