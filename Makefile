@@ -36,25 +36,34 @@ FUZZ   = $(patsubst tests/fuzz/%.c,$(OUT)/%,$(wildcard tests/fuzz/fuzz_*.c))
 LINT   = $(patsubst src/%,build/lint/%.ok,$(filter %.c,$(SRC)))
 SHOW   = motions/paper-walk.bvh --garment garments/skirt.garment
 
+# A word for each command; make V=1 shows them whole.
+Q      = $(if $(V),,@)
+SAY    = @$(if $(V),:,echo)
+
 all: build/$(NAME)				## build the program (BUILD=release|debug|san)
 
 build/$(NAME): $(OUT)/$(NAME) FORCE
 	@cmp -s $< $@ || { cp $< $@.new && mv $@.new $@; }
 $(OUT)/$(NAME): $(OBJ) | build/deps
-	$(CXX) $(MODE) $(LDFLAGS) $(OBJ) $(LIBS) -o $@
+	$(SAY) '  LINK $@'
+	$(Q)$(CXX) $(MODE) $(LDFLAGS) $(OBJ) $(LIBS) -o $@
 $(OUT)/%.c.o: src/%.c $(OUT)/flags
 	@mkdir -p $(@D)
-	$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) -MMD -MP -c $< -o $@
+	$(SAY) '  CC   $<'
+	$(Q)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) -MMD -MP -c $< -o $@
 $(OUT)/%.cpp.o: src/%.cpp $(OUT)/flags | build/deps
 	@mkdir -p $(@D)
-	$(CXX) $(ALL_CPPFLAGS) $(ALL_CXXFLAGS) -MMD -MP -c $< -o $@
+	$(SAY) '  C++  $<'
+	$(Q)$(CXX) $(ALL_CPPFLAGS) $(ALL_CXXFLAGS) -MMD -MP -c $< -o $@
 $(OUT)/core.a: $(CORE) $(OUT)/sources
 	@rm -f $@
-	ar rcs $@ $(CORE)
+	$(SAY) '  AR   $@'
+	$(Q)ar rcs $@ $(CORE)
 $(OUT)/%.t.o: tests/%.c $(OUT)/flags
-	$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) -MMD -MP -c $< -o $@
+	$(SAY) '  CC   $<'
+	$(Q)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) -MMD -MP -c $< -o $@
 $(OUT)/%.t: $(OUT)/%.t.o $(OUT)/core.a | build/deps
-	$(CXX) $(MODE) $(LDFLAGS) $^ $(LIBS) -o $@
+	$(Q)$(CXX) $(MODE) $(LDFLAGS) $^ $(LIBS) -o $@
 
 # Two texts that are only touched when they change, so that other flags, another version or
 # another list of sources build what they must. -Werror changes no object.
@@ -100,7 +109,8 @@ lint: $(LINT)					## compiler warnings as errors, gcc -fanalyzer, the rules of t
 ANALYZE = $(if $(findstring clang,$(CC)),,-fanalyzer -Wno-analyzer-use-of-uninitialized-value)
 build/lint/%.c.ok: src/%.c Makefile
 	@mkdir -p $(@D)
-	$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) -O1 -Werror $(ANALYZE) -MMD -MP -MT $@ -MF $@.d -c $< -o /dev/null
+	$(SAY) '  LINT $<'
+	$(Q)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) -O1 -Werror $(ANALYZE) -MMD -MP -MT $@ -MF $@.d -c $< -o /dev/null
 	@touch $@
 
 # The replay feeds every sample whole, cut at every byte and with bytes changed. FUZZ_SECONDS
@@ -111,7 +121,7 @@ fuzz-run: $(FUZZ)
 	@for f in $(FUZZ); do t=$${f##*/fuzz_}; echo "$$t:"; $(if $(FUZZ_SECONDS),mkdir -p build/corpus/$$t; \
 	$$f -max_total_time=$(FUZZ_SECONDS) build/corpus/$$t tests/fuzz/seeds/$$t,$$f tests/fuzz/seeds/$$t/*) || exit 1; done
 $(OUT)/fuzz_%: tests/fuzz/fuzz_%.c $(if $(FUZZ_SECONDS),,tests/fuzz/replay.c) $(OUT)/core.a | build/deps
-	$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(if $(FUZZ_SECONDS),-fsanitize=fuzzer) $(LDFLAGS) $^ $(LIBS) -lstdc++ -o $@
+	$(Q)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(if $(FUZZ_SECONDS),-fsanitize=fuzzer) $(LDFLAGS) $^ $(LIBS) -lstdc++ -o $@
 
 format:						## clang-format over the .c files (headers are set by hand)
 	clang-format -i src/*/*.c src/*/*.cpp tests/*.c tests/fuzz/*.c
