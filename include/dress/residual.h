@@ -4,9 +4,12 @@
 
 #include "dress/bodyframe.h"
 
-/* A mesh in output units, boxed for tests against the body, and room for what is found. */
+/* A garment mesh in output units, boxed for tests against the body, and room for what is found. */
 typedef struct {
     CrossingSet edges, triangles;
+    const Edge *edge;
+    const Triangle *triangle;
+    const unsigned *own;  /* per vertex: parts (bits 1 << role) that must not show there */
     Crossing *found;
     int capacity;
 } Tester;
@@ -14,18 +17,23 @@ typedef struct {
 typedef struct {
     int edges;       /* (body edge, garment triangle) pairs that share a point */
     int cloth;       /* (garment edge, body triangle) pairs */
-    int inside;      /* garment vertices inside a part (analytic) */
+    int inside;      /* garment vertices inside a part (analytic), once for each part */
     double deepest;  /* metres */
 } Residual;
 
 /* Room for meshes of up to this many edges and triangles. */
 MUST_CHECK bool tester_reserve(Tester *t, int edges, int triangles, Arena *arena, Error *e);
 
-/* Boxes the mesh; position must stay until the last test. */
-void tester_build(Tester *t, const Vec3 *position, const Edge *edge, int nedges, const Triangle *triangle, int ntriangles);
+/* Boxes the mesh; all arrays must stay until the last test. own: see Tester. */
+void tester_build(Tester *t, const Vec3 *position, const Edge *edge, int nedges, const Triangle *triangle,
+                  int ntriangles, const unsigned *own);
 
-/* Counts against the parts in `parts` (bits 1 << role), adding up in *out. */
-void tester_count(Tester *t, const BodyFrame *body, unsigned parts, const Vec3 *position, int nvertices, Residual *out,
+/* Are all corners of the found pair's garment triangle (edge) such that the part must not show? */
+bool tester_owns_triangle(const Tester *t, int triangle, unsigned part);
+bool tester_owns_edge(const Tester *t, int edge, unsigned part);
+
+/* Counts against the whole body: *own where the part must not show, *other elsewhere. */
+void tester_count(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own, Residual *other,
                   CrossingCount *count);
 
 #endif

@@ -29,6 +29,7 @@ struct Dresser {
     Push push;
     Tester tester;
     Vec3 *position, *normal; /* of the written mesh */
+    unsigned *own;           /* per vertex: parts that must not show */
     double *u, *w;
     MeshGroup *group;
     int ngroups, *group_of; /* of every patch */
@@ -70,9 +71,10 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
     d->root = ARENA_NEW(arena, Patch, d->fit.npatches, e);
     d->position = ARENA_NEW(arena, Vec3, places, e);
     d->normal = ARENA_NEW(arena, Vec3, places, e);
+    d->own = ARENA_NEW(arena, unsigned, places, e);
     d->u = ARENA_NEW(arena, double, places, e);
     d->w = ARENA_NEW(arena, double, places, e);
-    if (!d->root || !d->position || !d->normal || !d->u || !d->w) return false;
+    if (!d->root || !d->position || !d->normal || !d->own || !d->u || !d->w) return false;
     if (!tester_reserve(&d->tester, 3 * triangles, triangles, arena, e)) return false;
     leaves_fill(&d->grid, depth);
     *out = d;
@@ -83,26 +85,33 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
 static void snap_points(Dresser *d, double unit) {
     for (int v = 0; v < d->sheet.nvertices; v++) {
         Vec3 p = vec_scale(d->push.point[v], unit);
+        d->own[v] = d->lattice.collide[d->sheet.place[v]] & d->fit.own;
         d->position[v] = vec(mesh_snap(p.x), mesh_snap(p.y), mesh_snap(p.z));
     }
-    tester_build(&d->tester, d->position, d->sheet.edge, d->sheet.nedges, d->sheet.triangle, d->sheet.ntriangles);
+    tester_build(&d->tester, d->position, d->sheet.edge, d->sheet.nedges, d->sheet.triangle, d->sheet.ntriangles, d->own);
 }
 
-/* Asks for more distance round everything that still crosses an own collider. Returns how many
-   pairs there are; *raised tells whether any vertex could be asked. */
+/* Asks for more distance round everything that still crosses a collider of its own. Returns how
+   many pairs there are; *raised tells whether any vertex could be asked. */
 static int raise_crossings(Dresser *d, const BodyFrame *body, CrossingCount *count, bool *raised) {
+    Tester *t = &d->tester;
     int hits = 0;
     *raised = false;
     for (int part = 0; part < body->body->nparts; part++) {
-        if (!(d->fit.own & part_bit(body, part))) continue;
-        int n = crossing_find(&body->edges[part], &d->tester.triangles, d->tester.found, d->tester.capacity, count);
-        for (int k = 0; k < n; k++)
-            for (int c = 0; c < 3; c++) *raised |= push_raise(&d->push, d->sheet.triangle[d->tester.found[k].triangle].v[c], RAISE);
-        hits += n;
-        n = crossing_find(&d->tester.edges, &body->triangles[part], d->tester.found, d->tester.capacity, count);
-        for (int k = 0; k < n; k++)
-            for (int c = 0; c < 2; c++) *raised |= push_raise(&d->push, d->sheet.edge[d->tester.found[k].edge].v[c], RAISE);
-        hits += n;
+        unsigned bit = part_bit(body, part);
+        if (!(d->fit.own & bit)) continue;
+        int n = crossing_find(&body->edges[part], &t->triangles, t->found, t->capacity, count);
+        for (int k = 0; k < n; k++) {
+            if (!tester_owns_triangle(t, t->found[k].triangle, bit)) continue;
+            for (int c = 0; c < 3; c++) *raised |= push_raise(&d->push, d->sheet.triangle[t->found[k].triangle].v[c], RAISE);
+            hits++;
+        }
+        n = crossing_find(&t->edges, &body->triangles[part], t->found, t->capacity, count);
+        for (int k = 0; k < n; k++) {
+            if (!tester_owns_edge(t, t->found[k].edge, bit)) continue;
+            for (int c = 0; c < 2; c++) *raised |= push_raise(&d->push, d->sheet.edge[t->found[k].edge].v[c], RAISE);
+            hits++;
+        }
     }
     return hits;
 }
@@ -138,8 +147,7 @@ static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, 
 static void final_test(Dresser *d, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
     double start = clock_seconds();
     Residual own = {0}, limbs = {0};
-    tester_count(&d->tester, body, d->fit.own, d->position, d->sheet.nvertices, &own, count);
-    tester_count(&d->tester, body, ~d->fit.own, d->position, d->sheet.nvertices, &limbs, count);
+    tester_count(&d->tester, body, d->position, d->sheet.nvertices, &own, &limbs, count);
     stats->residual_edges = own.edges;
     stats->residual_cloth = own.cloth;
     stats->inside = own.inside;
