@@ -174,16 +174,17 @@ static bool give_name(Found *f, int number, Arena *arena, Error *e) {
 }
 
 static int by_name(const void *a, const void *b) {
-    return strcmp((*(Found *const *)a)->input.name, (*(Found *const *)b)->input.name);
+    return strcasecmp((*(Found *const *)a)->input.name, (*(Found *const *)b)->input.name);
 }
 
-/* Lengthens every name that is not the only one of its kind; *changed tells whether there were. */
+/* Lengthens every name that is not the only one of its kind, also on a disk that does not tell Walk
+   from walk; *changed tells whether there were any. */
 static bool lengthen(Found **sorted, Found *found, int n, bool *changed, Arena *arena, Error *e) {
     *changed = false;
     qsort(sorted, (size_t)n, sizeof *sorted, by_name);
     for (int i = 0, j; i < n; i = j) {
         const char *name = sorted[i]->input.name;
-        for (j = i + 1; j < n && strcmp(sorted[j]->input.name, name) == 0;) j++;
+        for (j = i + 1; j < n && strcasecmp(sorted[j]->input.name, name) == 0;) j++;
         for (int k = i; j - i > 1 && k < j; k++) {
             *changed = true;
             if (sorted[k]->length < NUMBERED) sorted[k]->length++;

@@ -9,7 +9,7 @@
 static const Command commands[] = {
     {"dress", COMMAND_DRESS, "dress moving bodies in garments, frame by frame", "[OPTION]... MOTION... -g GARMENT... -o DIR",
      "kitsuke dress motions/paper-walk.bvh -g garments/skirt.garment -o out\n"
-     "kitsuke dress mocap/ -g garments/tshirt.garment -g garments/trousers.garment -o out --format obj,drc", cmd_dress},
+     "kitsuke dress mocap/ -g garments/skirt.garment -o out --format drc --rate 30", cmd_dress},
     {"inspect", COMMAND_INSPECT, "tell what is in a motion, garment or body file", "[OPTION]... FILE...",
      "kitsuke inspect motions/paper-walk.bvh\nkitsuke inspect --joints motions/paper-walk.bvh > joints.csv", cmd_inspect},
     {"walk", COMMAND_WALK, "make a walking motion", "[OPTION]...",

@@ -25,6 +25,10 @@ static const double WIDE_LIMB = 0.1, WIDE_PELVIS = 0.05;
 /* The first frame stands alone if the step to the second is so many times wider than any of the
    next steps, and wider than this part of the height. */
 static const double LONE_FACTOR = 4, LONE_STEP = 0.05;
+/* Frame times are rounded in files ("0.0083333"): what lies nearer than this to a frame of the
+   source, as a part of its time, is that frame and no mixture. */
+static const double ROUNDING = 1e-5;
+
 enum { LONE_LOOK = 8, JUMPS_KEPT = 4 };
 
 /* A source frame: the joints in the file's units and axes, and the figure's pose. */
@@ -125,7 +129,7 @@ static bool advance(Take *t, Error *e) {
     return true;
 }
 
-/* Frame times are rounded in files ("0.0083333"), so a hundredth of a frame may be missing. */
+/* Because of the rounding a hundredth of the last frame may be missing. */
 static int count_frames(const Motion *m, double rate) {
     if (rate <= 0) return m->nframes;
     double n = floor((m->nframes - 1) * m->frame_time * rate + 0.01) + 1;
@@ -215,7 +219,7 @@ bool take_next(Take *t, TakeFrame *out, Error *e) {
     if (t->rate > 0) {
         out->time = (t->number - 1) / t->rate;
         double place = fmin(out->time / frame_time, t->motion->nframes - 1), nearest = floor(place + 0.5);
-        if (fabs(place - nearest) < 1e-6) good = give_source(t, (int)nearest, out, e); /* its own frame, not one beside it */
+        if (fabs(place - nearest) < ROUNDING * (place + 1)) good = give_source(t, (int)nearest, out, e);
         else good = give_between(t, (int)place, place - floor(place), out, e);
     } else {
         out->time = (t->number - 1) * frame_time;

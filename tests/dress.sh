@@ -1,0 +1,200 @@
+#!/bin/sh
+# kitsuke dress from end to end: what is written where, the same bytes every time, and nothing lost.
+. "$(dirname "$0")/lib.sh"
+
+walk=$root/motions/paper-walk.bvh
+skirt=$root/garments/skirt.garment
+trousers=$root/garments/trousers.garment
+
+dress() { "$KITSUKE" dress -q --no-times "$@"; }
+column() { awk -F, -v name="$1" '/^#/ { next } !at { for (i = 1; i <= NF; i++) if ($i == name) at = i; next } { print $at }' "$2"; }
+list() { (cd "$1" && find . -type f | sort | tr '\n' ' '); }
+count() { find "$1" -type f -name "$2" | wc -l | tr -d ' '; }
+
+# Layout
+dress "$walk" -g "$skirt" -g "$trousers" -o layout --frames 9:11 --format obj,drc
+is 'two garments, two formats: the layout' "$(list layout)" "$({ for f in body skirt trousers; do
+    for n in 0009 0010 0011; do printf './paper-walk/%s.%s.%s\n' $f $n drc $f $n obj; done; done
+    printf './paper-walk/stats.csv\n./summary.csv\n'; } | sort | tr '\n' ' ')"
+is 'stats.csv: a row for each frame and garment' "$(column frame layout/paper-walk/stats.csv | tr '\n' ' ')" '9 9 10 10 11 11 '
+is 'summary.csv: a row for each garment' "$(column garment layout/summary.csv | tr '\n' ' ')" 'skirt trousers '
+is 'bytes of the summary are the bytes of the files' "$(column bytes layout/summary.csv | head -n 1)" \
+    "$(cat layout/paper-walk/skirt.* | wc -c | tr -d ' ')"
+is 'Draco files are Draco files' "$(head -c 5 layout/paper-walk/skirt.0009.drc)" DRACO
+like 'groups of the body are its roles' "$(grep '^g ' layout/paper-walk/body.0009.obj)" '^g left_thigh'
+dress "$walk" -g "$skirt" -o bare --frames 1:2 --no-body
+is '--no-body' "$(list bare)" './paper-walk/skirt.0001.obj ./paper-walk/skirt.0002.obj ./paper-walk/stats.csv ./summary.csv '
+dress "$walk" -g "$skirt" -o none --frames 1:2 --format none
+is '--format none leaves the statistics' "$(list none)" './paper-walk/stats.csv ./summary.csv '
+is 'and they are the same' "$(cat none/paper-walk/stats.csv)" "$(cat bare/paper-walk/stats.csv)"
+"$KITSUKE" dress -q "$walk" -g "$skirt" -o times --frames 1:2 --format none
+like 'with times there are columns of seconds' "$(grep '^frame,' times/paper-walk/stats.csv)" ',pose_s,.*,write_s$'
+is 'without there are none' "$(grep -c '_s,' none/paper-walk/stats.csv)" 0
+
+# Frames and rates. The walk has 72 frames at 66 a second.
+dress "$walk" -g "$skirt" -o full --format obj
+is 'all frames' "$(count full 'skirt.*.obj')" 72
+dress "$walk" -g "$skirt" -o step --frames 3::30
+is '--frames 3::30' "$(column frame step/paper-walk/stats.csv | tr '\n' ' ')" '3 33 63 '
+same 'a selected frame shows the same body' step/paper-walk/body.0033.obj full/paper-walk/body.0033.obj
+is 'and has the same time' "$(column time step/paper-walk/stats.csv | tail -n 1)" "$(column time full/paper-walk/stats.csv | sed -n 63p)"
+dress "$walk" -g "$skirt" -o late --frames 70:999
+is 'a last frame behind the end is the end' "$(column frame late/paper-walk/stats.csv | tr '\n' ' ')" '70 71 72 '
+dress "$walk" -g "$skirt" -o one --frames 7
+is '--frames 7 is that frame' "$(column frame one/paper-walk/stats.csv)" 7
+dress "$walk" -g "$skirt" -o rate66 --rate 66
+ok 'resampled at its own rate it shows the same' diff -r -x '*.csv' full rate66
+dress "$walk" -g "$skirt" -o rate33 --rate 33
+is 'half the rate: half the frames' "$(count rate33 'body.*.obj')" 36
+same 'its frame 10 is frame 19' rate33/paper-walk/body.0010.obj full/paper-walk/body.0019.obj
+dress "$walk" -g "$skirt" -o rate132 --rate 132 --frames 1:41:5
+same 'twice the rate: its frame 41 is frame 21' rate132/paper-walk/body.0041.obj full/paper-walk/body.0021.obj
+between() { # every vertex of frame 2j of the doubled rate lies near the middle of frames j and j+1
+    paste -d ' ' rate132/paper-walk/body.0026.obj full/paper-walk/body.0013.obj full/paper-walk/body.0014.obj |
+        awk '$1 == "v" { for (i = 2; i <= 4; i++) { m = ($(i + 4) + $(i + 8)) / 2; d = $i - m; if (d * d > 4e-6) bad = 1; n++ }
+             if ($2 != $6) moved = 1 } END { exit !(n > 3000 && !bad && moved) }'
+}
+ok 'a frame between two lies between them' between
+
+# Options of the meshes
+dress "$walk" -g "$skirt" -o cm --frames 1:1 --output-unit cm
+scaled() {
+    paste -d ' ' cm/paper-walk/body.0001.obj full/paper-walk/body.0001.obj |
+        awk '$1 == "v" { for (i = 2; i <= 4; i++) { d = $i / 100 - $(i + 4); if (d * d > 1e-11) bad = 1; n++ } } END { exit !(n > 3000 && !bad) }'
+}
+ok '--output-unit cm: numbers a hundred times as large' scaled
+tall() { awk '$1 == "v" { if ($3 > most) most = $3 } END { print most }' "$1/paper-walk/body.0001.obj"; }
+dress "$walk" -g "$skirt" -o double --frames 1:1 --scale 2
+is '--scale 2: twice as tall' "$(awk "BEGIN { r = $(tall double) / $(tall full); print (r > 1.9 && r < 2.1) }")" 1
+dress "$walk" -g "$skirt" -o inch --frames 1:1 --unit in
+is '--unit in: 2.54 times as tall' "$(awk "BEGIN { r = $(tall inch) / $(tall full); print (r > 2.4 && r < 2.7) }")" 1
+dress "$walk" -g "$skirt" -o coarse --frames 1:1 --detail 2 --body-detail 8
+faces() { grep -c '^f ' "$1"; }
+is '--detail and --body-detail: fewer facets' "$(($(faces coarse/paper-walk/skirt.0001.obj) < $(faces full/paper-walk/skirt.0001.obj))) $(($(
+    faces coarse/paper-walk/body.0001.obj) < $(faces full/paper-walk/body.0001.obj)))" '1 1'
+dress "$walk" -g "$skirt" -o fixed --frames 1:40:13 --topology fixed
+fixed() { for f in fixed/paper-walk/skirt.*.obj; do grep '^f ' "$f" | cmp -s - first || return 1; done; }
+grep '^f ' fixed/paper-walk/skirt.0001.obj >first
+ok '--topology fixed: the same triangles in every frame' fixed
+
+# Many motions
+mkdir -p in/a in/b in/empty
+cp "$walk" in/a/walk.bvh
+cp "$walk" in/b/walk.BVH
+cp "$walk" in/walk.bvh
+"$KITSUKE" walk --preset paper --frames-per-step 5 -o in/a/short.bvh
+printf 'no motion\n' >in/a/bad.bvh
+printf 'not looked at\n' >in/a/notes.txt
+batch() { "$KITSUKE" dress -q in -g "$skirt" --frames 1:4 --no-times "$@"; }
+ok 'one bad motion: the worst exit code' must_fail 3 batch -o many -j 1
+cp err many.err
+is 'the others are dressed, folders named by their paths, rows in order' \
+    "$(awk -F, '/^#/ || /^motion,/ { next } { printf "%s=%s ", $1, $3 }' many/summary.csv)" \
+    'a/bad=refused a/short=ok a/walk=ok b/walk=ok walk=ok '
+like 'the bad one has its reason in the summary' "$(cat many/summary.csv)" '^a/bad,skirt,refused,0,.*in/a/bad.bvh'
+is 'and one message on stderr' "$(grep -c error: many.err)" 1
+is 'and no folder' "$(ls many/a)" "$(printf 'short\nwalk')"
+must_fail 3 batch -o threads -j 4 >log
+ok 'four threads write the same bytes' diff -r many threads
+same 'and say the same' err many.err
+ok 'a folder without motions: exit 3' must_fail 3 dress in/empty -g "$skirt" -o empty
+cp "$walk" in/a/walk.amc
+dress in/a/walk.bvh in/b/walk.BVH in/a/walk.amc -g "$skirt" -o names --frames 1:1 --no-body --format none
+is 'names that collide grow' "$(cd names && find . -name stats.csv | sort | tr '\n' ' ')" \
+    './in/a/walk/stats.csv ./in/b/walk/stats.csv ./walk.amc/stats.csv '
+dress in/walk.bvh ./in//walk.bvh in/./walk.bvh -g "$skirt" -o once --frames 1:1 --format none
+is 'a file that was named three times is dressed once' "$(column motion once/summary.csv)" walk
+
+# Names that try to get out
+long=$(awk 'BEGIN { for (i = 0; i < 240; i++) printf "x" }')
+mkdir -p 'odd/..x' odd/summary.csv
+for name in '...bvh' '-rf.bvh' "$(printf 'a\nb\033[2J.bvh')" "$long.bvh" 'stats.csv.bvh' '..x/..bvh' 'summary.csv/a\b:c.bvh' ' .bvh' 'ü.bvh'; do
+    cp "$walk" "odd/$name"
+done
+find odd -name '*.bvh' -exec "$KITSUKE" dress -q -g "$skirt" -o inner/out --frames 1:1 --no-body {} +
+is 'nine odd names: nine motions' "$(count inner/out skirt.0001.obj)" 9
+is 'none of them outside' "$(ls -A inner) $(find odd -type f | wc -l | tr -d ' ') $(find . -name '*.obj' -path './odd/*')" 'out 10 '
+is 'no control byte in a name' "$(find inner | LC_ALL=C tr -d '\n' | LC_ALL=C tr -d -c '\001-\037\177' | wc -c | tr -d ' ')" 0
+(mkdir deep && cd deep && dress ../in/a/../walk.bvh -g "$skirt" -o out --frames 1:1 --format none)
+is 'a path with .. stays inside' "$(list deep)" './out/summary.csv ./out/walk/stats.csv '
+
+# What is there already
+cp -R step again
+printf 'mine\n' >again/paper-walk/notes.txt
+ok 'a motion folder with files is refused: exit 4' must_fail 4 dress "$walk" -g "$skirt" -o again --frames 1:2
+like 'the message says how to go on' "$(cat err)" "'again/paper-walk' holds files of an earlier run; --force replaces them"
+is 'nothing was touched' "$(list again/paper-walk)" "$(list step/paper-walk | sed 's/ \.\/skirt/ .\/notes.txt&/')"
+dress "$walk" -g "$skirt" -o again --frames 1:2 --force --no-body
+is '--force leaves none of the old frames, and what is not ours' "$(list again/paper-walk)" \
+    './notes.txt ./skirt.0001.obj ./skirt.0002.obj ./stats.csv '
+cp again/paper-walk/stats.csv kept.csv
+printf 'garbage\n' >gone.bvh
+mkdir -p again/gone && printf 'old\n' >again/gone/stats.csv
+ok '--force with a motion that cannot be read keeps the old files' must_fail 3 dress gone.bvh -g "$skirt" -o again --force
+is 'they are there' "$(cat again/gone/stats.csv)" old
+
+# Where nothing can be written
+printf 'a file\n' >file
+ok 'a file in the place of the folder: exit 4' must_fail 4 dress "$walk" -g "$skirt" -o file --frames 1:1
+ok 'a folder below it: exit 4' must_fail 4 dress "$walk" -g "$skirt" -o file/out --frames 1:1
+mkdir locked && chmod a-w locked
+if [ -w locked ]; then skip 'a folder without permission' 'this is root'
+else ok 'a folder without permission: exit 4' must_fail 4 dress "$walk" -g "$skirt" -o locked/out --frames 1:1; fi
+mkdir disk
+if mount -t tmpfs -o size=1m none disk 2>log; then
+    ok 'a full disk: exit 4' must_fail 4 dress "$walk" -g "$skirt" -o disk/out
+    like 'the message says why' "$(cat err)" 'No space left on device'
+    whole=$(for f in disk/out/paper-walk/*.obj; do cmp -s "$f" "full/paper-walk/${f##*/}" || echo "$f"; done)
+    is 'what is there is whole' "$whole" ''
+    is 'no temporary file is left' "$(count disk '*.tmp')" 0
+    umount disk
+else
+    skip 'a full disk' 'cannot mount a small one'
+fi
+
+# --strict: a ring that is pinned inside the body
+sed 's/^ring hip.*/ring hip pelvis 0.40 size 0.05 0.05 0.05/; s/^pin waist/&\npin hip/' "$skirt" >tight.garment
+ok 'what cannot be solved is counted, not hidden' dress "$walk" -g tight.garment -o tight --frames 1:2 --format none
+is 'in residual_frames' "$(column residual_frames tight/summary.csv)" 2
+ok '--strict makes it exit 1' must_fail 1 dress "$walk" -g tight.garment -o strict --frames 1:2 --strict
+like 'and says where' "$(cat err)" "paper-walk.bvh: error: the body shows through 'skirt' in 2 of 2 frames"
+is 'everything is written all the same' "$(count strict '*.obj')" 4
+ok '--strict with a sound garment: exit 0' dress "$walk" -g "$skirt" -o sound --frames 1:2 --strict
+
+# Interrupted
+interrupt() { # interrupt SIGNAL: in the middle of a run
+    rm -rf stop
+    "$KITSUKE" dress -q in in/walk.bvh "$walk" -g "$skirt" -g "$trousers" -o stop -j 1 --format obj,drc 2>err &
+    pid=$!
+    for _ in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+        [ -n "$(find stop -name '*.obj' 2>log)" ] && break
+        sleep 0.1
+    done
+    kill -s "$1" "$pid"
+    code=0
+    wait "$pid" || code=$?
+    is "$1: exit 130" "$code" 130
+    is "$1: no temporary file is left" "$(count stop '*.tmp')" 0
+    torn=$(find stop -name '*.obj' -exec sh -c 'for f; do tail -n 1 "$f" | grep -q "^f " || echo "$f"; done' sh {} +)
+    is "$1: every file is whole" "$torn" ''
+    like "$1: the summary tells what was not done" "$(cat stop/summary.csv)" ',failed,.*,interrupted$'
+}
+interrupt INT
+interrupt TERM
+
+# Real motions
+if [ -f "$KITSUKE_MOTIONS/cmu_daz_02_03_run.bvh" ]; then
+    "$KITSUKE" dress "$KITSUKE_MOTIONS/cmu_daz_02_03_run.bvh" -g "$skirt" -o run --frames 1:12 --format none 2>err
+    like 'a T-pose in front is told' "$(cat err)" 'the first [0-9] frames stand apart'
+    is 'and cloth starts afresh behind it' "$(column restarted run/cmu_daz_02_03_run/stats.csv | tr -d '\n')" 111100000000
+    dress "$KITSUKE_MOTIONS/cmu_daz_02_03_run.bvh" -g "$skirt" -o slow --rate 30 --format none
+    is 'a jump between two resampled frames is not missed' "$(column restarted slow/cmu_daz_02_03_run/stats.csv | head -n 4 | tr -d '\n')" 1100
+    dress "$KITSUKE_MOTIONS/cmu_02_03_run.amc" -g "$skirt" -o amc --frames 1:2 --format none
+    is 'an AMC finds its skeleton' "$(column frames amc/summary.csv)" 2
+    ok 'or is told it' dress "$KITSUKE_MOTIONS/cmu_02_03_run.amc" --asf "$KITSUKE_MOTIONS/cmu_02.asf" -g "$skirt" -o asf --frames 1:2 --format none
+    ok 'no human: exit 3' must_fail 3 dress "$KITSUKE_MOTIONS/fairmotion_sinusoidal_noend.bvh" -g "$skirt" -o toy
+    like 'with the roles that are missing' "$(cat err)" 'missing roles: pelvis, chest, '
+else
+    skip 'real motions' 'no folder with them'
+fi
+done_testing
