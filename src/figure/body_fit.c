@@ -62,6 +62,8 @@ static double girth_of(const Sizes *s, Build build) {
     return s->size * clamp(pow(own / (reference * s->size), 0.3), 0.75, 1.3);
 }
 
+static double spacing(const Figure *f, Role left, Role right) { return f->start[left].x - f->start[right].x; }
+
 static Sizes sizes_of(const Figure *figure) {
     Sizes s = {.figure = figure, .reference = figure_reference()};
     const Figure *ref = &s.reference;
@@ -70,13 +72,14 @@ static Sizes sizes_of(const Figure *figure) {
     /* Heads grow less than bodies: at 1.10 m the head is 1/5.7 of the height, at 1.70 m 1/7.5. */
     s.girth[BUILD_HEAD] = s.size * clamp(pow(s.size, -0.6), 0.8, 1.5);
     s.girth[BUILD_NECK] = sqrt(s.girth[BUILD_HEAD] * s.girth[BUILD_TORSO]);
-    double hip = figure->start[ROLE_LEFT_THIGH].x - figure->start[ROLE_RIGHT_THIGH].x;
-    double ref_hip = ref->start[ROLE_LEFT_THIGH].x - ref->start[ROLE_RIGHT_THIGH].x;
-    double shoulder = figure->start[ROLE_LEFT_UPPER_ARM].x - figure->start[ROLE_RIGHT_UPPER_ARM].x;
-    double ref_shoulder = ref->start[ROLE_LEFT_UPPER_ARM].x - ref->start[ROLE_RIGHT_UPPER_ARM].x;
-    /* Capture systems place hip joints anywhere from 12 to 24 cm apart in bodies of equal width. */
-    s.hips = clamp(1 + 0.5 * (hip / (ref_hip * s.size) - 1), 0.95, 1.25);
-    s.shoulders = clamp(1 + 0.6 * (shoulder / (ref_shoulder * s.size) - 1), 0.85, 1.25);
+    /* Capture systems place the joints of one body differently: hips 12 to 24 cm apart, shoulders
+       20 to 42. Wide joints widen the torso, or limbs would come off; narrow ones hardly do. */
+    double hips = spacing(figure, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH) / spacing(ref, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH);
+    double shoulders = spacing(figure, ROLE_LEFT_UPPER_ARM, ROLE_RIGHT_UPPER_ARM) /
+                       spacing(ref, ROLE_LEFT_UPPER_ARM, ROLE_RIGHT_UPPER_ARM);
+    s.hips = clamp(1 + 0.65 * (hips / s.girth[BUILD_TORSO] - 1), 0.95, 1.4);
+    s.shoulders = shoulders / s.girth[BUILD_TORSO];
+    s.shoulders = s.shoulders > 1 ? fmin(s.shoulders, 1.5) : fmax(0.5 + 0.5 * s.shoulders, 0.85);
     return s;
 }
 
@@ -94,11 +97,11 @@ static double length_of(const Sizes *s, Role role) {
     }
 }
 
-/* Where the torso is wide: the hips' factor at the hip joints, the shoulders' at theirs. */
+/* The hips' factor at the hip joints, the shoulders' at theirs, a waist of the usual width. */
 static double torso_width(const Sizes *s, double height) {
     double hip = s->figure->start[ROLE_LEFT_THIGH].y, shoulder = s->figure->start[ROLE_LEFT_UPPER_ARM].y;
     double t = shoulder > hip ? clamp((height - hip) / (shoulder - hip), 0, 1) : 0;
-    return s->hips + t * (s->shoulders - s->hips);
+    return 1 + (1 - t) * (1 - t) * (s->hips - 1) + t * t * (s->shoulders - 1);
 }
 
 /* Thighs of narrow hips make room for each other; towards the knee they come back to the bone. */
@@ -107,19 +110,32 @@ static double thigh_shift(const Sizes *s, double side, double at) {
     return clamp(side - room, 0, 0.03 * s->size) * clamp(2.5 * (1 - at), 0, 1);
 }
 
+/* And narrow shoulders carry their arms outside of the joint. */
+static double arm_shift(const Sizes *s, double at) {
+    double usual = s->reference.start[ROLE_LEFT_UPPER_ARM].x * s->girth[BUILD_TORSO];
+    double missing = usual - s->figure->start[ROLE_LEFT_UPPER_ARM].x;
+    return clamp(0.5 * missing, 0, 0.03 * s->size) * clamp(1 - 1.2 * at, 0, 1);
+}
+
 /* Feet: how far the sole of the scaled part would stand above (or under) the floor. */
 static double sole_gap(const Sizes *s, Role role, double girth) {
     double own = s->figure->start[role].y, usual = s->reference.start[role].y * girth;
     return clamp(own - usual, -0.5 * usual, 0.03 * s->size);
 }
 
+/* Inside the bone places follow its length; what reaches past its ends follows the girth. */
+static double place_along(double at, double length, double reference) {
+    return at < 0 ? at * reference : at > 1 ? length + (at - 1) * reference : at * length;
+}
+
 static void size_section(const Sizes *s, const BodyPart *part, const Section *spec, Section *out) {
-    double girth = s->girth[build_of(part->role)], reference = extent(&s->reference, part->role) * girth;
-    /* Inside the bone places follow its length; what reaches past its ends follows the girth. */
-    double at = spec->at, y = at < 0 ? at * reference : at > 1 ? part->length + (at - 1) * reference : at * part->length;
+    double girth = s->girth[build_of(part->role)], at = spec->at;
+    double y = place_along(at, part->length, extent(&s->reference, part->role) * girth);
     *out = (Section){y, spec->x * girth, spec->z * girth, spec->side * girth, spec->front * girth, spec->back * girth};
     switch (part->role) {
     case ROLE_PELVIS: case ROLE_SPINE: case ROLE_CHEST: out->side *= torso_width(s, part->frame.t.y + y); break;
+    case ROLE_LEFT_UPPER_ARM: out->x -= arm_shift(s, at); break;
+    case ROLE_RIGHT_UPPER_ARM: out->x += arm_shift(s, at); break;
     case ROLE_LEFT_THIGH: out->x -= thigh_shift(s, out->side, at); break;
     case ROLE_RIGHT_THIGH: out->x += thigh_shift(s, out->side, at); break;
     default: break;
@@ -128,7 +144,8 @@ static void size_section(const Sizes *s, const BodyPart *part, const Section *sp
 }
 
 bool body_fit(const BodySpec *spec, const Figure *figure, int detail, Arena *arena, Body *out, Error *e) {
-    if (!(figure->height > 0) || !isfinite(figure->height)) return error_set(e, ERR_INTERNAL, "figure without a height");
+    if (!(figure->height > 0) || !isfinite(figure->height))
+        return error_set(e, ERR_INTERNAL, "figure without a height");
     Sizes s = sizes_of(figure);
     memset(out, 0, sizeof *out);
     for (int r = 0; r < ROLE_COUNT; r++) out->of_role[r] = -1;

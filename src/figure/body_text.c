@@ -88,11 +88,13 @@ static bool read_section(const Line *line, BodyPartSpec *part, Error *e) {
     for (int i = 0; i < COLUMN_COUNT; i++) {
         double *x = column_of(s, i), limit = i == 0 ? AT_LIMIT : i < 3 ? CENTRE_LIMIT : SIZE_LIMIT;
         if (i + 1 >= line->count)
-            return text_error(line, i + 1, e, "a section needs at, x, z, side, front, back; '%s' is missing", COLUMNS[i]);
+            return text_error(line, i + 1, e, "a section needs at, x, z, side, front, back; '%s' is missing",
+                              COLUMNS[i]);
         if (!text_real(line, i + 1, x, e)) return false;
         if (fabs(*x) > limit)
             return text_error(line, i + 1, e, "%s must be from %g to %g", COLUMNS[i], i < 3 ? -limit : 0.0, limit);
-        if (i >= 3 && *x < SIZE_LEAST) return text_error(line, i + 1, e, "%s must be at least %g", COLUMNS[i], SIZE_LEAST);
+        if (i >= 3 && *x < SIZE_LEAST)
+            return text_error(line, i + 1, e, "%s must be at least %g", COLUMNS[i], SIZE_LEAST);
     }
     if (!no_more_words(line, COLUMN_COUNT + 1, e)) return false;
     if (part->nsections && s->at < s[-1].at + AT_STEP)
@@ -173,7 +175,8 @@ static void write_number(double x, FILE *out) {
 }
 
 static bool same_part(const BodyPartSpec *a, const BodyPartSpec *b) {
-    if (a->role != b->role || a->nsections != b->nsections || a->cap[0] != b->cap[0] || a->cap[1] != b->cap[1]) return false;
+    if (a->role != b->role || a->nsections != b->nsections) return false;
+    if (a->cap[0] != b->cap[0] || a->cap[1] != b->cap[1]) return false;
     for (int i = 0; i < a->nsections; i++) {
         Section s = a->section[i], t = b->section[i];
         for (int k = 0; k < COLUMN_COUNT; k++)

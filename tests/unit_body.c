@@ -1,0 +1,451 @@
+/* The body: closed shells, one surface for skin, patches and distance, human proportions for
+   any figure. */
+#include "figure/body.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "tap.h"
+
+static Arena arena;
+
+static double uniform(unsigned *seed) {
+    *seed = *seed * 1664525u + 1013904223u;
+    return (*seed >> 8) / 16777216.0;
+}
+
+/* A figure of the given height, its joints those of the reference, scaled. */
+static Figure figure_of_height(double height) {
+    Figure f = figure_reference();
+    double s = height / f.height;
+    f.height = height;
+    for (int r = 0; r < ROLE_COUNT; r++) {
+        f.start[r] = vec_scale(f.start[r], s);
+        f.end[r] = vec_scale(f.end[r], s);
+    }
+    return f;
+}
+
+static bool fit(const Figure *figure, int detail, Body *body) {
+    Error e = {0};
+    bool good = body_fit(body_default(), figure, detail, &arena, body, &e);
+    if (!good) printf("# %s\n", e.text);
+    return good;
+}
+
+static const BodyPart *part_of(const Body *b, Role role) { return &b->part[b->of_role[role]]; }
+
+static double height_at(const BodyPart *part, double t) { return part->low + t * (part->high - part->low); }
+
+/* The point of the surface at height y in direction phi (0 = front, to the part's +x). */
+static Vec3 surface_point(const BodyPart *part, double y, double phi, double swell) {
+    Section s = body_section_at(part, y, NULL);
+    double x = sin(phi), z = cos(phi);
+    return vec(s.x + swell * s.side * x, y, s.z + swell * (z > 0 ? s.front : s.back) * z);
+}
+
+static double distance(const BodyPart *part, Vec3 p) { return body_distance(part, p, INFINITY, NULL); }
+
+/* Of a point of the canonical stance. */
+static double distance_in_stance(const BodyPart *part, Vec3 p) { return distance(part, rigid_unapply(part->frame, p)); }
+
+/* --- shells --- */
+
+static double signed_volume(const Mesh *m, int first, int count) {
+    double six = 0;
+    for (int i = first; i < first + count; i++) {
+        const int *v = m->triangle[i].v;
+        six += vec_dot(m->position[v[0]], vec_cross(m->position[v[1]], m->position[v[2]]));
+    }
+    return six / 6;
+}
+
+static Vec3 facet_normal(const Mesh *m, int triangle) {
+    const int *v = m->triangle[triangle].v;
+    Vec3 p = m->position[v[0]];
+    return vec_cross(vec_sub(m->position[v[1]], p), vec_sub(m->position[v[2]], p));
+}
+
+/* Every directed edge once, its opposite once too, no vertex of another part, no area of zero. */
+static bool is_closed_shell(const Body *b, const BodyPart *part) {
+    const Mesh *m = &b->skin;
+    int n = part->nvertices, bad = 0;
+    unsigned char *seen = calloc((size_t)n * (size_t)n, 1);
+    for (int i = part->first_triangle; i < part->first_triangle + part->ntriangles; i++) {
+        const int *v = m->triangle[i].v;
+        for (int k = 0; k < 3; k++) {
+            int from = v[k] - part->first_vertex, to = v[(k + 1) % 3] - part->first_vertex;
+            if (from < 0 || from >= n || to < 0 || to >= n || seen[from * n + to]++) bad++;
+        }
+        if (vec_len(facet_normal(m, i)) < 1e-7 * b->scale * b->scale) bad++;
+    }
+    int edges = 0;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            edges += i < j && seen[i * n + j];
+            if (seen[i * n + j] != seen[j * n + i]) bad++;
+        }
+    free(seen);
+    for (int i = part->first_edge; i < part->first_edge + part->nedges; i++)
+        for (int k = 0; k < 2; k++) {
+            int v = m->edge[i].v[k] - part->first_vertex;
+            if (v < 0 || v >= n) bad++;
+        }
+    return bad == 0 && edges == part->nedges && n - edges + part->ntriangles == 2;
+}
+
+static void test_shells(int detail) {
+    static Body b;
+    Figure f = figure_reference();
+    if (!OK(fit(&f, detail, &b), "detail %d fits the reference figure", detail)) return;
+    int closed = 0, positive = 0, outward = 0, triangles = 0, edges = 0;
+    for (int i = 0; i < b.nparts; i++) {
+        const BodyPart *part = &b.part[i];
+        closed += is_closed_shell(&b, part);
+        positive += signed_volume(&b.skin, part->first_triangle, part->ntriangles) > 0;
+        triangles += part->ntriangles;
+        edges += part->nedges;
+        bool good = true;
+        for (int k = part->first_triangle; k < part->first_triangle + part->ntriangles; k++)
+            for (int c = 0; c < 3; c++)
+                good &= vec_dot(facet_normal(&b.skin, k), b.skin.normal[b.skin.triangle[k].v[c]]) > 0;
+        outward += good;
+    }
+    OK(closed == b.nparts, "detail %d: %d of %d parts are closed, no triangle is degenerate", detail, closed,
+       b.nparts);
+    OK(positive == b.nparts, "detail %d: every shell has its inside inside", detail);
+    OK(outward == b.nparts, "detail %d: vertex normals agree with their triangles", detail);
+    OK(triangles == b.skin.ntriangles && edges == b.skin.nedges, "detail %d: the parts are the whole skin", detail);
+    OK(b.skin.ngroups == b.nparts && strcmp(b.skin.group[0].name, "pelvis") == 0,
+       "detail %d: groups carry role names", detail);
+}
+
+/* --- one surface --- */
+
+static void test_distance(const Body *b) {
+    double worst_vertex = 0, worst_patch = 0, worst_offset = 0, worst_gradient = 0, worst_unit = 0;
+    int wrong_sign = 0;
+    unsigned seed = 7;
+    for (int i = 0; i < b->nparts; i++) {
+        const BodyPart *part = &b->part[i];
+        for (int k = part->first_vertex; k < part->first_vertex + part->nvertices; k++) {
+            double d = distance_in_stance(part, b->skin.position[k]);
+            worst_vertex = fmax(worst_vertex, fabs(d) / part->reach);
+        }
+        for (int k = 0; k < 2000; k++) {
+            double y = height_at(part, 0.02 + 0.96 * uniform(&seed)), phi = 2 * PI * uniform(&seed);
+            Vec3 p = surface_point(part, y, phi, 1), n;
+            wrong_sign += distance(part, surface_point(part, y, phi, 1.001)) <= 0;
+            wrong_sign += distance(part, surface_point(part, y, phi, 0.999)) >= 0;
+            body_distance(part, p, INFINITY, &n);
+            worst_unit = fmax(worst_unit, fabs(vec_len(n) - 1));
+            double h = 1e-6, offset = 1e-4;
+            Vec3 g = vec(distance(part, vec(p.x + h, p.y, p.z)) - distance(part, vec(p.x - h, p.y, p.z)),
+                         distance(part, vec(p.x, p.y + h, p.z)) - distance(part, vec(p.x, p.y - h, p.z)),
+                         distance(part, vec(p.x, p.y, p.z + h)) - distance(part, vec(p.x, p.y, p.z - h)));
+            worst_gradient = fmax(worst_gradient, vec_dist(vec_scale(g, 0.5 / h), n));
+            worst_offset = fmax(worst_offset, fabs(distance(part, vec_mad(p, n, offset)) / offset - 1));
+        }
+    }
+    const Patch *patch = b->patch;
+    for (int i = 0; i < b->nparts; i++)
+        for (int row = 0; row + 1 < b->part[i].nsections; row++)
+            for (int quarter = 0; quarter < 4; quarter++, patch++)
+                for (int k = 0; k < 20; k++) {
+                    double u = uniform(&seed), w = uniform(&seed);
+                    Vec3 p = rigid_unapply(b->part[i].frame, bezier_point(patch, u, w, NULL, NULL));
+                    worst_patch = fmax(worst_patch, fabs(distance(&b->part[i], p)) / b->part[i].reach);
+                }
+    OK(worst_vertex < 3e-4, "skin vertices lie on the surface of the distance (%.2g of the radius)", worst_vertex);
+    OK(worst_patch < 3e-4, "points of the patches do too (%.2g)", worst_patch);
+    OK(wrong_sign == 0, "the sign is right a thousandth of the radius in and out (%d wrong)", wrong_sign);
+    OK(worst_unit < 1e-12, "normals are unit vectors (%.2g)", worst_unit);
+    OK(worst_gradient < 1e-3, "the normal is the gradient on the surface (%.2g)", worst_gradient);
+    OK(worst_offset < 0.05, "0.1 mm out along the normal is 0.1 mm (%.2g)", worst_offset);
+}
+
+/* Against the distance to a fine cloud of surface points. */
+static void test_bounds(const Body *b) {
+    enum { ROUND = 64, ALONG = 96 };
+    static Vec3 cloud[ROUND * ALONG];
+    const double far = 0.03;
+    unsigned seed = 11;
+    int too_long = 0, too_near = 0, over = 0, checked = 0;
+    for (int i = 0; i < b->nparts; i++) {
+        const BodyPart *part = &b->part[i];
+        for (int j = 0; j < ALONG; j++)
+            for (int k = 0; k < ROUND; k++)
+                cloud[j * ROUND + k] = surface_point(part, height_at(part, j / (ALONG - 1.0)), 2 * PI * k / ROUND, 1);
+        for (int k = 0; k < 400; k++) {
+            Vec3 p = vec((uniform(&seed) - 0.5) * 3 * part->reach, height_at(part, 1.4 * uniform(&seed) - 0.2),
+                         (uniform(&seed) - 0.5) * 3 * part->reach);
+            double truth = INFINITY, d = body_distance(part, p, far, NULL), whole = distance(part, p);
+            for (int j = 0; j < ROUND * ALONG; j++) truth = fmin(truth, vec_dist(p, cloud[j]));
+            if (whole <= 0) continue;
+            checked++;
+            too_long += d > far && d > truth;       /* a bound that is no bound */
+            too_near += d < far && fabs(d - whole) > 1e-12;
+            over += truth < far && whole > 1.5 * truth;
+        }
+    }
+    OK(too_long == 0, "values beyond far are lower bounds (%d of %d are not)", too_long, checked);
+    OK(too_near == 0, "far does not change what is nearer");
+    OK(over == 0, "within 3 cm the estimate is never more than half too long (%d of %d are)", over, checked);
+    Vec3 n = {0, 0, 0};
+    const BodyPart *thigh = part_of(b, ROLE_LEFT_THIGH);
+    double above = body_distance(thigh, vec(0, thigh->low - 0.05, thigh->section[0].z), INFINITY, &n);
+    NEAR(above, 0.05, 0.002, "5 cm above the pole is 5 cm away");
+    OK(n.y < -0.98, "and the way out is up (%.3f)", n.y);
+    Vec3 pole = vec(thigh->section[0].x, thigh->low, thigh->section[0].z);
+    OK(isfinite(body_distance(thigh, pole, INFINITY, &n)) && vec_finite(n),
+       "the pole itself has a distance and a normal");
+    Section middle = body_section(thigh, 0.5);
+    NEAR(body_distance(thigh, vec(middle.x, 0.5 * thigh->length, middle.z), INFINITY, &n),
+         -fmin(middle.side, fmin(middle.front, middle.back)), 0.003, "on the axis the depth is the smaller half size");
+}
+
+static void test_patches(const Body *b) {
+    const Patch *patch = b->patch;
+    int open_rows = 0, open_sides = 0, inward = 0;
+    for (int i = 0; i < b->nparts; i++)
+        for (int row = 0; row + 1 < b->part[i].nsections; row++, patch += 4)
+            for (int q = 0; q < 4; q++) {
+                const Patch *here = &patch[q], *beside = &patch[(q + 1) % 4], *above = here + 4;
+                for (int k = 0; k < 4; k++) {
+                    open_sides += memcmp(&here->p[3][k], &beside->p[0][k], sizeof(Vec3)) != 0;
+                    if (row + 2 < b->part[i].nsections)
+                        open_rows += memcmp(&here->p[k][3], &above->p[k][0], sizeof(Vec3)) != 0;
+                }
+                Vec3 p = bezier_point(here, 0.5, 0.5, NULL, NULL), n;
+                body_distance(&b->part[i], rigid_unapply(b->part[i].frame, p), INFINITY, &n);
+                inward += vec_dot(bezier_normal(here, 0.5, 0.5), mat_apply(b->part[i].frame.r, n)) < 0.999;
+            }
+    OK(patch == b->patch + b->npatches, "four patches between two sections");
+    OK(open_rows == 0, "rows of patches share their control points to the bit");
+    OK(open_sides == 0, "quarters share their control points to the bit");
+    OK(inward == 0, "du x dw is the outward normal");
+}
+
+/* --- proportions --- */
+
+static Box box_of(const Body *b) {
+    Box box = box_empty();
+    for (int i = 0; i < b->skin.nvertices; i++) box_add(&box, b->skin.position[i]);
+    return box;
+}
+
+/* How far the nearest vertex of part b is from the mirror image of a point. */
+static double mirror_gap(const Body *body, const BodyPart *b, Vec3 p) {
+    double nearest = INFINITY;
+    for (int i = b->first_vertex; i < b->first_vertex + b->nvertices; i++) {
+        Vec3 q = body->skin.position[i];
+        nearest = fmin(nearest, vec_dist(p, vec(-q.x, q.y, q.z)));
+    }
+    return nearest;
+}
+
+static void test_symmetry(const Body *b) {
+    static const Role left[] = {ROLE_LEFT_UPPER_ARM, ROLE_LEFT_FOREARM, ROLE_LEFT_HAND, ROLE_LEFT_THIGH,
+                                ROLE_LEFT_SHIN, ROLE_LEFT_FOOT, ROLE_LEFT_TOE};
+    static const Role right[] = {ROLE_RIGHT_UPPER_ARM, ROLE_RIGHT_FOREARM, ROLE_RIGHT_HAND, ROLE_RIGHT_THIGH,
+                                 ROLE_RIGHT_SHIN, ROLE_RIGHT_FOOT, ROLE_RIGHT_TOE};
+    double worst = 0;
+    for (int i = 0; i < 7; i++) {
+        const BodyPart *part = part_of(b, left[i]);
+        for (int k = part->first_vertex; k < part->first_vertex + part->nvertices; k++)
+            worst = fmax(worst, mirror_gap(b, part_of(b, right[i]), b->skin.position[k]));
+    }
+    OK(worst < 1e-12, "the right side mirrors the left (%.2g m)", worst);
+}
+
+static void test_adult(const Body *b) {
+    Box box = box_of(b);
+    NEAR(box.high.y, 1.70, 0.005, "the crown is at the stature");
+    NEAR(box.low.y, 0, 0.002, "the soles are on the floor");
+    NEAR(b->scale, 1, 1e-12, "the reference has the reference's girth");
+    NEAR((double)b->skin.ntriangles, 8000, 400, "triangles at detail 16");
+    const BodyPart *pelvis = part_of(b, ROLE_PELVIS), *thigh = part_of(b, ROLE_LEFT_THIGH);
+    double hips = 0;
+    for (int i = 0; i < pelvis->nsections; i++) hips = fmax(hips, pelvis->section[i].side);
+    NEAR(hips, 0.163, 0.002, "half width of the hips");
+    NEAR(body_section(thigh, 0.15).side, 0.081, 0.002, "radius of the thigh near its top");
+    bool flatter = true;
+    for (double at = 0.2; at < 1; at += 0.05) {
+        Section s = body_section(part_of(b, ROLE_CHEST), at);
+        flatter &= s.front < s.back;
+    }
+    OK(flatter, "the chest is flatter in front than behind");
+    const BodyPart *head = part_of(b, ROLE_HEAD);
+    double heads = 1.70 / (head->high - head->low);
+    OK(heads > 7 && heads < 8, "7 to 8 heads tall (%.2f)", heads);
+}
+
+/* Half balls of equal size at elbow and knee: a bent joint has no gap and no step. */
+static void test_joints(const Body *b) {
+    static const Role upper[] = {ROLE_LEFT_UPPER_ARM, ROLE_LEFT_THIGH, ROLE_RIGHT_FOREARM};
+    static const Role lower[] = {ROLE_LEFT_FOREARM, ROLE_LEFT_SHIN, ROLE_RIGHT_HAND};
+    for (int i = 0; i < 3; i++) {
+        Section end = body_section(part_of(b, upper[i]), 1), start = body_section(part_of(b, lower[i]), 0);
+        NEAR(end.side, start.side, 1e-12, "both sides of a joint are equally wide");
+        NEAR(end.front + end.back, start.front + start.back, 1e-12, "and equally deep");
+    }
+    const BodyPart *pelvis = part_of(b, ROLE_PELVIS), *chest = part_of(b, ROLE_CHEST);
+    Vec3 hip = part_of(b, ROLE_LEFT_THIGH)->frame.t, shoulder = part_of(b, ROLE_LEFT_UPPER_ARM)->frame.t;
+    OK(distance_in_stance(pelvis, hip) < -0.03, "hip joints are well inside the pelvis");
+    OK(distance_in_stance(chest, shoulder) < 0.01, "shoulder joints are in the chest's side");
+}
+
+/* A waistband is pinned to the pelvis: the abdomen must not come out under it. */
+static void test_waist(const Body *b) {
+    const BodyPart *pelvis = part_of(b, ROLE_PELVIS), *spine = part_of(b, ROLE_SPINE);
+    static const struct { Vec3 axis; double most; } bend[] = {
+        {{1, 0, 0}, 25}, {{0, 0, 1}, 12.5}, {{0, 0, -1}, 12.5}, {{-1, 0, 0}, 12.5}};
+    double worst = -INFINITY;
+    for (int i = 0; i < 4; i++)
+        for (double degrees = 0; degrees <= bend[i].most; degrees += 2.5) {
+            Mat3 turn = mat_axis_angle(bend[i].axis, degrees * PI / 180);
+            for (int j = 0; j < 60 * 48; j++) {
+                Vec3 p = surface_point(spine, height_at(spine, (j / 48) / 59.0), 2 * PI * (j % 48) / 48, 1);
+                p = vec_add(mat_apply(turn, p), spine->frame.t);
+                if (p.y < 1.01) worst = fmax(worst, distance_in_stance(pelvis, p));
+            }
+        }
+    OK(worst < -0.005, "below the waist a bending abdomen stays inside the pelvis (%.1f mm)", 1e3 * worst);
+}
+
+static void test_sizes(void) {
+    static Body child, tall;
+    Figure small = figure_of_height(1.10), large = figure_of_height(2.00);
+    if (!OK(fit(&small, 16, &child) && fit(&large, 16, &tall), "a child and a tall adult fit")) return;
+    const BodyPart *ch = part_of(&child, ROLE_HEAD), *th = part_of(&tall, ROLE_HEAD);
+    double child_heads = 1.10 / (ch->high - ch->low), tall_heads = 2.00 / (th->high - th->low);
+    OK(child_heads > 5 && child_heads < 6.2, "a child of 1.10 m is %.1f heads tall", child_heads);
+    OK(tall_heads > 7.4 && tall_heads < 8.7, "a man of 2.00 m is %.1f heads tall", tall_heads);
+    Section small_thigh = body_section(part_of(&child, ROLE_LEFT_THIGH), 0.5);
+    Section large_thigh = body_section(part_of(&tall, ROLE_LEFT_THIGH), 0.5);
+    NEAR(small_thigh.side / large_thigh.side, 0.55, 0.01, "thighs are as the heights");
+    NEAR(box_of(&child).low.y, 0, 0.002, "the child stands on the floor");
+    NEAR(box_of(&tall).low.y, 0, 0.003, "so does the tall adult");
+    Figure lanky = figure_reference();
+    for (int r = ROLE_LEFT_FOREARM; r <= ROLE_RIGHT_FOREARM; r += ROLE_RIGHT_FOREARM - ROLE_LEFT_FOREARM)
+        lanky.end[r] = vec_mad(lanky.end[r], vec_sub(lanky.end[r], lanky.start[r]), 0.5);
+    static Body b;
+    if (!OK(fit(&lanky, 16, &b), "long forearms fit")) return;
+    double girth = body_section(part_of(&b, ROLE_LEFT_FOREARM), 0).side / 0.035;
+    OK(girth > 1 && girth < 1.08, "a forearm half as long again is hardly thicker (%.3f)", girth);
+    NEAR(part_of(&b, ROLE_LEFT_FOREARM)->length, 0.375, 1e-9, "but as long as its bone");
+}
+
+/* Rigs place hip joints 12 to 24 cm apart in bodies of the same width. */
+static void test_hips(void) {
+    for (int wide = 0; wide < 2; wide++) {
+        static Body b;
+        Figure f = figure_reference();
+        double shift = (wide ? 0.12 : 0.06) - f.start[ROLE_LEFT_THIGH].x;
+        for (int r = ROLE_LEFT_THIGH; r < ROLE_COUNT; r++) {
+            double x = r < ROLE_RIGHT_THIGH ? shift : -shift;
+            f.start[r].x += x;
+            f.end[r].x += x;
+        }
+        const char *name = wide ? "wide" : "narrow";
+        if (!OK(fit(&f, 16, &b), "%s hips fit", name)) continue;
+        const BodyPart *thigh = part_of(&b, ROLE_LEFT_THIGH), *pelvis = part_of(&b, ROLE_PELVIS);
+        double crossing = 0;
+        for (double at = 0; at < 0.8; at += 0.05) {
+            Section s = body_section(thigh, at);
+            crossing = fmax(crossing, s.side - rigid_apply(thigh->frame, vec(s.x, 0, 0)).x);
+        }
+        OK(crossing < 0.002, "%s hips: the thighs do not run into each other (%.1f mm)", name, 1e3 * crossing);
+        OK(distance_in_stance(pelvis, thigh->frame.t) < -0.02,
+           "%s hips: the thigh begins inside the pelvis", name);
+    }
+}
+
+/* And shoulders 20 to 42 cm apart: the arm's ball stays in touch with the chest. */
+static void test_shoulders(void) {
+    static const double half[] = {0.10, 0.17, 0.21};
+    for (int i = 0; i < 3; i++) {
+        static Body b;
+        Figure f = figure_reference();
+        double shift = half[i] - f.start[ROLE_LEFT_UPPER_ARM].x;
+        for (int r = ROLE_LEFT_UPPER_ARM; r <= ROLE_RIGHT_HAND; r++) {
+            if (r == ROLE_RIGHT_CLAVICLE) continue;
+            double x = r < ROLE_RIGHT_CLAVICLE ? shift : -shift;
+            f.start[r].x += x;
+            f.end[r].x += x;
+        }
+        if (!OK(fit(&f, 16, &b), "shoulders %.0f cm apart fit", 200 * half[i])) continue;
+        const BodyPart *chest = part_of(&b, ROLE_CHEST), *arm = part_of(&b, ROLE_LEFT_UPPER_ARM);
+        Section top = body_section(arm, 0);
+        Vec3 centre = rigid_apply(arm->frame, vec(top.x, 0, top.z));
+        double gap = distance_in_stance(chest, centre);
+        OK(gap < 0.5 * top.side, "shoulders %.0f cm apart: the arm begins in the chest (%.1f mm)", 200 * half[i],
+           1e3 * gap);
+    }
+}
+
+static void test_pose(const Body *b) {
+    Pose pose;
+    for (int r = 0; r < ROLE_COUNT; r++) pose.bone[r] = rigid_identity();
+    pose.bone[ROLE_HEAD] = (Rigid){mat_axis_angle(vec(0, 1, 0), PI / 2), {0, 0, 1}};
+    Error e = {0};
+    Vec3 *p = ARENA_NEW(&arena, Vec3, b->skin.nvertices, &e), *n = ARENA_NEW(&arena, Vec3, b->skin.nvertices, &e);
+    if (!OK(p && n, "room for a pose")) return;
+    body_pose(b, &pose, p, n);
+    const BodyPart *head = part_of(b, ROLE_HEAD);
+    int moved = 0, wrong = 0;
+    for (int i = 0; i < b->skin.nvertices; i++) {
+        bool in_head = i >= head->first_vertex && i < head->first_vertex + head->nvertices;
+        Vec3 at = b->skin.position[i], was = b->skin.normal[i];
+        if (in_head) at = vec(at.z, at.y, 1 - at.x), was = vec(was.z, was.y, -was.x);
+        moved += in_head;
+        wrong += vec_dist(p[i], at) > 1e-12 || vec_dist(n[i], was) > 1e-12;
+    }
+    OK(moved > 100 && wrong == 0, "each part moves with its own bone");
+    body_pose(b, &pose, p, NULL);
+    OK(vec_finite(p[0]), "normals are optional");
+}
+
+static void test_failures(void) {
+    static Body b;
+    Figure f = figure_reference();
+    Error e = {0};
+    OK(!body_fit(body_default(), &f, 10, &arena, &b, &e) && e.kind == ERR_USAGE, "detail 10 is refused: %s", e.text);
+    int survived = 0;
+    for (int n = 1; n < 100; n++) {
+        Arena small = {.fail_after = n};
+        Error failed = {0};
+        bool good = body_fit(body_default(), &f, 8, &small, &b, &failed);
+        arena_free(&small);
+        if (good) {
+            OK(n > 4, "after %d allocations body_fit has all it needs", n - 1);
+            break;
+        }
+        survived += failed.kind == ERR_INTERNAL;
+    }
+    OK(survived > 4, "each failing allocation is an internal error (%d tried)", survived);
+}
+
+int main(void) {
+    static Body reference;
+    Figure f = figure_reference();
+    test_shells(8);
+    test_shells(16);
+    test_shells(32);
+    if (OK(fit(&f, 16, &reference), "the reference fits")) {
+        test_distance(&reference);
+        test_bounds(&reference);
+        test_patches(&reference);
+        test_symmetry(&reference);
+        test_adult(&reference);
+        test_joints(&reference);
+        test_waist(&reference);
+        test_pose(&reference);
+    }
+    test_sizes();
+    test_hips();
+    test_shoulders();
+    test_failures();
+    arena_free(&arena);
+    return tap_done();
+}
