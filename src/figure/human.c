@@ -225,6 +225,14 @@ static int named_below(const Tree *t, int joint, Part part) {
     return best;
 }
 
+/* The named neck between `first` and the head, else `first`. */
+static int named_neck(const Tree *t, int first, int head) {
+    int neck = first;
+    for (int j = head; j > first; j = t->skeleton->joint[j].parent)
+        if (j != head && t->hint[j].weight[PART_NECK] > 0.5) neck = j;
+    return t->hint[first].weight[PART_NECK] > 0.5 ? first : neck;
+}
+
 static bool in_limb(const Tree *t, const LimbPair *p, int joint) {
     return tree_below(t, p->limb[0].joint[0], joint) || tree_below(t, p->limb[1].joint[0], joint);
 }
@@ -281,7 +289,7 @@ static void set_torso(const Tree *t, const Human *h, Roles *out) {
         int head = named >= 0 ? named : head_by_shape(t, h, first);
         bool only_neck = head == first && named < 0 && t->hint[first].weight[PART_NECK] > 0.5;
         if (only_neck) head = -1;
-        if (neck < 0 && first != head) neck = first;
+        if (neck < 0 && first != head) neck = named_neck(t, first, head);
         out->joint[ROLE_HEAD] = head;
     }
     out->joint[ROLE_NECK] = neck;

@@ -15,10 +15,13 @@ enum {
 
 /* Points. A fully named pair gets about 50, a well shaped one about 10 more. */
 static const double LONG_BONE_NAMED = 10, END_NAMED = 6, CLAVICLE_NAMED = 4, SIDES_NAMED = 5;
-static const double COVERAGE = 6, UNEVEN = 3, SKIPPED = 0.4, FAR_START = 4, NO_END_JOINT = 1, MIRROR = 8;
+static const double COVERAGE = 8, UNEVEN = 4, SKIPPED = 0.4, FORKED = 2, BENT = 20, FAR_START = 4, NO_END_JOINT = 1, COINCIDES = 0.5, MIRROR = 8;
 
 /* ln(upper / lower bone): leg 0.415 m / 0.39 m, arm 0.28 / 0.25 in the reference figure. */
 static const double EVEN[2] = {0.06, 0.11};
+/* The two long bones' share of the way from the limb's first joint to its tip; more than this
+   is no merit. */
+static const double SHARE[2] = {0.75, 0.58};
 
 bool tree_build(const Skeleton *skeleton, const Sample *sample, Arena *arena, Tree *out, Error *e) {
     int n = skeleton->njoints;
@@ -70,11 +73,26 @@ static int find_clavicle(const Tree *t, const Way *w, int start, double *points)
     return best >= 0 ? w->joint[best] : -1;
 }
 
-/* Bones that are jumped over between two places of the way. */
-static int skipped(const Way *w, int from, int to) {
-    int n = 0;
-    for (int i = from + 1; i < to; i++) n += w->along[i + 1] - w->along[i] > 0.02 * w->along[w->count - 1];
-    return n;
+/* Do chains part here? Two that leave through the same point part only there. */
+static bool forks(const Tree *t, int joint) {
+    int first = -1;
+    for (int c = t->child[joint]; c >= 0; c = t->sibling[c]) {
+        if (t->skeleton->joint[c].is_end || !(t->reach[c] > 0)) continue;
+        if (first >= 0 && sample_distance(t->sample, first, c) > 0.1 * t->bone[c]) return true;
+        first = c;
+    }
+    return false;
+}
+
+/* A split bone (upper_arm, upper_arm.001) may be jumped over; it stays straight all the time and
+   nothing branches off. chord: mean distance of the two places. */
+static double skip_points(const Tree *t, const Way *w, int from, int to, double chord) {
+    double path = w->along[to] - w->along[from], points = 0;
+    for (int i = from + 1; i < to; i++) {
+        if (w->along[i + 1] - w->along[i] > 0.02 * w->along[w->count - 1]) points -= SKIPPED;
+        if (forks(t, w->joint[i])) points -= FORKED;
+    }
+    return path > 0 ? points - BENT * (1 - chord / path) : points;
 }
 
 /* Scores the limb that starts at way places a, b and ends at the last one; keeps the better. */
@@ -83,14 +101,16 @@ static void try_limb(const Tree *t, LimbKind kind, const Way *w, int a, int b, L
     Limb limb = {.joint = {w->joint[a], w->joint[b], end}, .clavicle = -1, .found = true};
     limb.length[0] = sample_distance(t->sample, limb.joint[0], limb.joint[1]);
     limb.length[1] = sample_distance(t->sample, limb.joint[1], limb.joint[2]);
-    double total = w->along[c] + t->reach[end], both = limb.length[0] + limb.length[1];
+    double total = w->along[c] - w->along[0] + t->reach[end], both = limb.length[0] + limb.length[1];
     if (both < 0.1 * total || limb.length[0] < 0.2 * limb.length[1] || limb.length[1] < 0.2 * limb.length[0]) return;
 
     double uneven = log(limb.length[0] / limb.length[1]) - EVEN[kind];
-    limb.score = name_points(t, kind, limb.joint) + COVERAGE * both / total - UNEVEN * uneven * uneven;
-    limb.score -= SKIPPED * (skipped(w, a, b) + skipped(w, b, c));
+    limb.score = name_points(t, kind, limb.joint) - UNEVEN * uneven * uneven;
+    limb.score += COVERAGE * fmin(1, both / total / SHARE[kind]);
+    limb.score += skip_points(t, w, a, b, limb.length[0]) + skip_points(t, w, b, c, limb.length[1]);
     limb.score -= FAR_START * fmax(0, w->along[a] / limb.length[0] - 1);
     if (t->skeleton->joint[end].is_end) limb.score -= NO_END_JOINT;
+    if (t->bone[end] < 0.02 * both) limb.score -= COINCIDES;
     if (kind == LIMB_ARM) {
         double points;
         limb.clavicle = find_clavicle(t, w, a, &points);

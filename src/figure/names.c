@@ -59,6 +59,8 @@ static const Phrase phrases[] = {
     {"upper", "leg", 's', PART_THIGH, 1},
     {"lower", "leg", 's', PART_SHIN, 1},
     {"low", "leg", 's', PART_SHIN, 1},
+    {"u", "arm", 's', PART_UPPER_ARM, 1}, /* OptiTrack: LUArm, LFArm */
+    {"f", "arm", 's', PART_FOREARM, 1},
     {"toe", "base", 's', PART_TOE, 1},
     {"fore", "foot", 's', PART_TOE, 0.7},
     {"pelvis", NULL, 'c', PART_PELVIS, 1},
@@ -92,7 +94,7 @@ static const Phrase phrases[] = {
     {"elbow", NULL, 's', PART_FOREARM, 0.95},
     {"ulna", NULL, 's', PART_FOREARM, 0.9},
     {"radius", NULL, 's', PART_FOREARM, 0.85},
-    {"wrist", NULL, 's', PART_HAND, 0.95},
+    {"wrist", NULL, 's', PART_HAND, 0.88},
     {"hand", NULL, 's', PART_HAND, 0.9},
     {"palm", NULL, 's', PART_HAND, 0.7},
     {"thigh", NULL, 's', PART_THIGH, 1},
