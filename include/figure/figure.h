@@ -23,6 +23,7 @@ typedef struct {
     Rigid bind[ROLE_COUNT];    /* private: canonical -> joint frame (metres), for bones that turn with a joint */
     bool bound[ROLE_COUNT];    /* private: those bones */
     int toward[ROLE_COUNT];    /* private: joint or end site that the bone points to; -1 = it follows its parent */
+    double arms_out, legs_out; /* private: metres that limbs stand farther out than the joints, where these are odd */
 } Figure;
 
 /* Rigid transforms canonical stance -> world (metres, Y up), one for each role bone. */

@@ -51,11 +51,18 @@ static Vec3 not_far(const Poser *p, Vec3 from, Vec3 to) {
     return vec_lerp(from, to, size > most ? most / size : 1);
 }
 
-/* Where a bone begins: at its joint, within GAP of where `parent` says. */
+/* How far a limb bone stands off its joint: sideways, with the trunk. */
+static Vec3 aside(const Poser *p, Role role) {
+    bool leg = role >= ROLE_LEFT_THIGH, right = leg ? role >= ROLE_RIGHT_THIGH : role >= ROLE_RIGHT_CLAVICLE;
+    double out = leg ? p->f->legs_out : p->f->arms_out;
+    return vec_scale(mat_column(p->pose->bone[leg ? ROLE_PELVIS : ROLE_CHEST].r, 0), right ? -out : out);
+}
+
+/* Where a limb bone begins: at its joint, within GAP of where `parent` says. */
 static Vec3 start_of(const Poser *p, Role role, Role parent) {
     Vec3 expected = rigid_apply(p->pose->bone[parent], p->f->start[role]);
     int joint = p->f->roles.joint[role];
-    return joint < 0 ? expected : not_far(p, expected, point(p, joint));
+    return joint < 0 ? expected : not_far(p, expected, vec_add(point(p, joint), aside(p, role)));
 }
 
 /* `r`, turned by the smallest turn that makes the bone point along `now`. */
@@ -113,7 +120,7 @@ static void pose_arm(const Poser *p, Role clavicle) {
     const Figure *f = p->f;
     Role upper = clavicle + 1, forearm = clavicle + 2, hand = clavicle + 3;
     Vec3 start = rigid_apply(p->pose->bone[ROLE_CHEST], f->start[clavicle]);
-    Vec3 along = vec_sub(point(p, f->roles.joint[upper]), start);
+    Vec3 along = vec_sub(vec_add(point(p, f->roles.joint[upper]), aside(p, upper)), start);
     p->pose->bone[clavicle] = placed(point_along(f, clavicle, p->pose->bone[ROLE_CHEST].r, along), f->start[clavicle], start);
     /* The upper arm's turn is counted from the chest: the clavicle's is small and noisy. */
     pose_limb_bone(p, upper, clavicle, ROLE_CHEST);

@@ -271,14 +271,20 @@ bool figure_measure(const Motion *m, const FigureOptions *options, const Sample 
 
     double u = f->unit;
     k *= u;
+    double ankle = l.ankle > 0 ? l.ankle * u : adult.ankle * k;
     Lengths in_metres = {
-        sane(l.hips * u, adult.hips * k, 0.5, 1.7), sane(l.thigh * u, adult.thigh * k, 0.5, 1.6),
+        clamp(l.hips * u, 0.7 * adult.hips * k, 1.5 * adult.hips * k),
+        sane(l.thigh * u, adult.thigh * k, 0.5, 1.6),
         sane(l.shin * u, adult.shin * k, 0.5, 1.6),
-        clamp(l.ankle > 0 ? l.ankle * u : adult.ankle * k, 0.5 * adult.ankle * k, 1.6 * adult.ankle * k),
+        clamp(ankle, 0.5 * adult.ankle * k, 1.6 * adult.ankle * k),
         sane(l.torso * u, adult.torso * k, 0.5, 1.6),
-        sane(l.shoulders * u, adult.shoulders * k, 0.6, 1.6), sane(l.upper_arm * u, adult.upper_arm * k, 0.5, 1.6),
-        sane(l.forearm * u, adult.forearm * k, 0.5, 1.6), sane(l.hand * u, adult.hand * k, 0.75, 1.25),
+        clamp(l.shoulders * u, 0.8 * adult.shoulders * k, 1.5 * adult.shoulders * k),
+        sane(l.upper_arm * u, adult.upper_arm * k, 0.5, 1.6),
+        sane(l.forearm * u, adult.forearm * k, 0.5, 1.6),
+        sane(l.hand * u, adult.hand * k, 0.75, 1.25),
     };
+    f->legs_out = 0.5 * (in_metres.hips - l.hips * u);
+    f->arms_out = 0.5 * (in_metres.shoulders - l.shoulders * u);
     figure_shape(k, &in_metres, f);
     return true;
 }
