@@ -50,8 +50,20 @@ void gait_pose_leg(GaitPose *pose, int side, double hip, double abduction, doubl
 /* bend: toes up. */
 void gait_pose_toe(GaitPose *pose, int side, double bend);
 
-/* Frame of the foot (origin at the ankle joint) in the world. */
+/* Where the hip joint stands, and the frame of the foot (origin at the ankle joint). */
+Vec3 gait_pose_hip(const GaitBody *body, const GaitPose *pose, int side);
 Rigid gait_pose_foot(const GaitBody *body, const GaitPose *pose, int side);
+
+/* Bends the leg so that the foot has that frame (inverse kinematics). The knee points along
+   `forward`, a unit vector across the leg. A foot out of reach is met with a straight leg. */
+void gait_pose_reach(const GaitBody *body, GaitPose *pose, int side, Rigid foot, Vec3 forward);
+
+/* Distance from hip to ankle joint with the knee bent by so many degrees, and back. */
+double gait_leg_length(const GaitBody *body, double knee);
+double gait_leg_knee(const GaitBody *body, double length);
+
+/* Rotation about x by so many degrees, toes up positive: what pitches a foot. */
+Mat3 gait_pitch(double degrees);
 
 /* HIERARCHY and the head of MOTION, and one line of it. */
 void gait_write_head(const GaitBody *body, int frames, double frame_time, FILE *out);

@@ -14,4 +14,12 @@ typedef enum { GAIT_CURVE_HIP, GAIT_CURVE_KNEE, GAIT_CURVE_ANKLE, GAIT_CURVES } 
    the heel touched the ground; any real number. */
 double gait_curve(GaitCurve curve, double cycle);
 
+/* How far the pelvis lists to the side of the standing leg, degrees (Perry and Burnfield 2010:
+   4 to 5; less here, so that both legs stay with their published angles). */
+double gait_pelvis_list(double cycle);
+
+/* Height of the middle of the hips over the sole of the standing foot, in statures, that these
+   angles imply when they are put on the walker's body: the first two waves of it. */
+double gait_hip_height(double cycle);
+
 #endif

@@ -72,23 +72,61 @@ void gait_pose_toe(GaitPose *pose, int side, double bend) {
     pose->turn[GAIT_TOE + side * LEG_JOINTS].x = -bend;
 }
 
-static Mat3 rotation_xyz(Vec3 degrees) {
-    Mat3 x = mat_axis_angle(vec(1, 0, 0), degrees.x * PI / 180), y = mat_axis_angle(vec(0, 1, 0), degrees.y * PI / 180);
-    return mat_mul(mat_mul(x, y), mat_axis_angle(vec(0, 0, 1), degrees.z * PI / 180));
+static Mat3 about_x(double degrees) { return mat_axis_angle(vec(1, 0, 0), degrees * PI / 180); }
+static Mat3 about_y(double degrees) { return mat_axis_angle(vec(0, 1, 0), degrees * PI / 180); }
+static Mat3 about_z(double degrees) { return mat_axis_angle(vec(0, 0, 1), degrees * PI / 180); }
+
+Mat3 gait_pitch(double degrees) {
+    return about_x(-degrees);
 }
 
-static Mat3 rotation_yxz(Vec3 degrees) {
-    Mat3 x = mat_axis_angle(vec(1, 0, 0), degrees.x * PI / 180), y = mat_axis_angle(vec(0, 1, 0), degrees.y * PI / 180);
-    return mat_mul(mat_mul(y, x), mat_axis_angle(vec(0, 0, 1), degrees.z * PI / 180));
+static Mat3 joint_rotation(const GaitPose *pose, int joint) {
+    Vec3 t = pose->turn[joint];
+    Mat3 x = about_x(t.x), y = about_y(t.y), z = about_z(t.z);
+    return joint == GAIT_HIPS ? mat_mul(mat_mul(y, x), z) : mat_mul(mat_mul(x, y), z);
+}
+
+/* The angles of Rx Ry Rz. Legs keep far away from 90 degrees about y. */
+static Vec3 angles_xyz(Mat3 m) {
+    double x = atan2(-m.r[1].z, m.r[2].z), y = asin(clamp(m.r[0].z, -1, 1)), z = atan2(-m.r[0].y, m.r[0].x);
+    return vec_scale(vec(x, y, z), 180 / PI);
+}
+
+Vec3 gait_pose_hip(const GaitBody *body, const GaitPose *pose, int side) {
+    return vec_add(pose->hips, mat_apply(joint_rotation(pose, GAIT_HIPS), body->offset[GAIT_THIGH + side * LEG_JOINTS]));
 }
 
 Rigid gait_pose_foot(const GaitBody *body, const GaitPose *pose, int side) {
-    Rigid g = {rotation_yxz(pose->turn[GAIT_HIPS]), pose->hips};
+    Rigid g = {joint_rotation(pose, GAIT_HIPS), pose->hips};
     for (int i = GAIT_THIGH; i <= GAIT_FOOT; i++) {
         int joint = i + side * LEG_JOINTS;
-        g = rigid_mul(g, (Rigid){rotation_xyz(pose->turn[joint]), body->offset[joint]});
+        g = rigid_mul(g, (Rigid){joint_rotation(pose, joint), body->offset[joint]});
     }
     return g;
+}
+
+double gait_leg_length(const GaitBody *body, double knee) {
+    double a = body->thigh, b = body->shin;
+    return sqrt(a * a + b * b + 2 * a * b * cos(knee * PI / 180));
+}
+
+double gait_leg_knee(const GaitBody *body, double length) {
+    double a = body->thigh, b = body->shin;
+    return acos(clamp((length * length - a * a - b * b) / (2 * a * b), -1, 1)) * 180 / PI;
+}
+
+void gait_pose_reach(const GaitBody *body, GaitPose *pose, int side, Rigid foot, Vec3 forward) {
+    Vec3 *leg = pose->turn + GAIT_THIGH + side * LEG_JOINTS;
+    Vec3 line = vec_sub(foot.t, gait_pose_hip(body, pose, side));
+    double knee = gait_leg_knee(body, vec_len(line));
+    double away = atan2(body->shin * sin(knee * PI / 180), body->thigh + body->shin * cos(knee * PI / 180));
+    Vec3 down = vec_unit_or(line, vec(0, -1, 0));
+    Vec3 x = vec_unit_or(vec_cross(forward, down), vec(1, 0, 0)); /* the knee's axis */
+    Vec3 y = vec_scale(mat_apply(mat_axis_angle(x, -away), down), -1);
+    Mat3 thigh = mat_columns(x, y, vec_cross(x, y)), shin = mat_mul(thigh, about_x(knee));
+    leg[0] = angles_xyz(mat_mul(mat_transpose(joint_rotation(pose, GAIT_HIPS)), thigh));
+    leg[1] = vec(knee, 0, 0);
+    leg[2] = angles_xyz(mat_mul(mat_transpose(shin), foot.r));
 }
 
 /* No minus before a printed zero, so that equal poses are equal text. */

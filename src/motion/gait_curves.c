@@ -5,7 +5,7 @@
    standing (the publication's foot axis lies 20 degrees below the sole). */
 #include "motion/gait_curves.h"
 
-#include <math.h>
+#include "geometry/vec.h"
 
 enum { SAMPLES = 50 };
 
@@ -41,4 +41,15 @@ double gait_curve(GaitCurve curve, double cycle) {
     const double *f = TABLE[curve];
     double a = f[(i + SAMPLES - 1) % SAMPLES], b = f[i], c = f[(i + 1) % SAMPLES], d = f[(i + 2) % SAMPLES];
     return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
+}
+
+double gait_pelvis_list(double cycle) {
+    return 2.8 * sin(2 * PI * cycle);
+}
+
+/* Fitted so that the legs, reaching for feet that do not slide, stay as near as they can to the
+   published angles: within 4 degrees. */
+double gait_hip_height(double cycle) {
+    double a = 4 * PI * cycle;
+    return 0.5152 - 0.0082 * cos(a) - 0.0028 * sin(a) - 0.0004 * cos(2 * a);
 }

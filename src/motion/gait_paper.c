@@ -25,7 +25,7 @@ static void pose_leg(const Gait *g, double phase, GaitPose *pose, int side) {
 static GaitPose pose_at(const Gait *g, int frame) {
     GaitPose pose = {0};
     int stride = 2 * g->frames_per_step;
-    double swing = g->arm_swing < 0 ? 18 : g->arm_swing;
+    double swing = g->arm_swing;
     for (int side = 0; side < GAIT_SIDES; side++) {
         int own = (frame + side * g->frames_per_step) % stride;
         double phase = 2 * PI * own / stride;

@@ -1,0 +1,163 @@
+/* A walk begins and ends with both feet side by side. In between left and right feet meet the
+   ground in turn, once in a unit of time, on a track: straight ahead, up or down, or round a
+   bend. The body's way is a cubic B-spline over the middles of successive feet, so it starts
+   and ends smoothly and moves evenly where the steps are even. */
+#include "motion/gait_plan.h"
+
+/* Parts of the stature. */
+#define STANDING_WIDTH 0.09
+#define WALKING_WIDTH 0.06
+#define TURN_RADIUS 0.42
+
+#define TOE_OUT 5.0 /* degrees */
+#define NEVER 1e9
+
+/* A walker who is about to stop takes a shorter step. */
+#define LAST_STEP 0.8
+
+/* Room between toes or heel and a riser. */
+#define RISER_ROOM 0.009
+
+double gait_ground_height(const GaitGround *g, double z) {
+    double stairs = g->count > 0 ? clamp(floor((z - g->first) / g->run) + 1, 0, g->count) * g->rise : 0;
+    return stairs + z * tan(g->slope * PI / 180);
+}
+
+/* The track at arc length s: straight, half a circle to the left, straight back. */
+static void follow_turn(const GaitPlan *plan, double s, GaitStep *step) {
+    double radius = TURN_RADIUS * plan->body.height, whole = 100 * plan->gait.step_length * plan->gait.steps;
+    double bend = (whole - PI * radius) / 2, angle = clamp((s - bend) / radius, 0, PI);
+    double before = fmin(s, bend), after = fmax(0, s - bend - PI * radius);
+    step->heading = angle * 180 / PI;
+    step->centre = vec(radius * (1 - cos(angle)), 0, before + radius * sin(angle) - after);
+}
+
+/* Ankle of the foot on tread j; 0 is the floor before the first riser. The foot stands in the
+   middle of the tread; where it is longer, heel or toes hang over the edge, not the riser. */
+static double tread(const GaitPlan *plan, int j) {
+    const GaitBody *b = &plan->body;
+    double from = plan->ground.first + (j - 1) * plan->ground.run, to = from + plan->ground.run;
+    double middle = (from + to) / 2 - (b->toe - b->heel) / 2, room = RISER_ROOM * b->height;
+    return plan->ground.rise > 0 ? fmin(middle, to - b->toe - room) : fmax(middle, from + b->heel + room);
+}
+
+/* How many level steps come before the foot that stands in front of the stairs. */
+static int steps_before(const GaitPlan *plan) {
+    return (plan->gait.steps - plan->gait.stair_count + 1) / 2;
+}
+
+/* Step k of the walk, 0 = the standing walker. */
+static void follow_track(const GaitPlan *plan, int k, GaitStep *step) {
+    double length = 100 * plan->gait.step_length, z = length * (k < plan->gait.steps ? k : k - 1 + LAST_STEP);
+    if (plan->ground.count > 0) {
+        int before = steps_before(plan), over = k - before - plan->ground.count;
+        if (k > before) z = over > 0 ? tread(plan, plan->ground.count) + over * length : tread(plan, k - before);
+    } else if (plan->ground.slope != 0) {
+        z *= cos(plan->ground.slope * PI / 180);
+    }
+    step->centre = vec(0, gait_ground_height(&plan->ground, z), z);
+    step->heading = 0;
+}
+
+static void place_foot(const GaitPlan *plan, int i, double width, GaitStep *step) {
+    double out = step->foot.side == GAIT_LEFT ? 1 : -1;
+    Mat3 heading = mat_axis_angle(vec(0, 1, 0), step->heading * PI / 180);
+    Mat3 foot = mat_axis_angle(vec(0, 1, 0), (step->heading + out * TOE_OUT) * PI / 180);
+    Vec3 aside = mat_apply(heading, vec(out * width / 2 * plan->body.height, 0, 0));
+    step->foot.ground = (Rigid){mat_mul(gait_pitch(plan->ground.slope), foot), vec_add(step->centre, aside)};
+    step->foot.contact = i < 2 ? -NEVER : i - 1;
+    step->foot.release = NEVER;
+}
+
+/* Pitches of the foot round the swing from one place to the next, in proportion to its length
+   against a natural one. */
+static void shape_swing(const GaitPlan *plan, GaitStep *from, GaitStep *to) {
+    const GaitGround *ground = &plan->ground;
+    double size = vec_dist(from->foot.ground.t, to->foot.ground.t) / (2 * GAIT_STEP * plan->body.height);
+    from->foot.release = to->foot.contact - GAIT_SWING_TIME;
+    from->foot.lift = gait_foot_lift() * fmin(size, 1.1);
+    to->foot.strike = gait_foot_strike() * fmin(size, 1.3);
+    if (ground->slope > 0) to->foot.strike = fmax(0, to->foot.strike - 0.6 * ground->slope);
+    if (ground->count == 0) return;
+    to->foot.climb = to->centre.y - from->centre.y;
+    if (to->foot.climb == 0) return;
+    to->foot.strike = ground->rise > 0 ? 0 : -18;
+    from->foot.lift = ground->rise > 0 ? -32 : -45;
+}
+
+/* Lifts the swinging foot over what stands in its way. */
+static void clear_ground(const GaitPlan *plan, const GaitStep *from, GaitStep *to) {
+    const GaitBody *b = &plan->body;
+    double margin = 0.003 * b->height, lift = 0;
+    for (int i = 4; i <= 28; i++) {
+        double x = i / 32.0, weight = gait_foot_clearance(x);
+        double t = from->foot.release + x * (to->foot.contact - from->foot.release);
+        FootPose foot = gait_foot_swing(b, &from->foot, &to->foot, t);
+        Vec3 sole[GAIT_SOLE];
+        gait_foot_sole(b, &foot, sole);
+        for (int j = 0; j < GAIT_SOLE; j++) {
+            double missing = gait_ground_height(&plan->ground, sole[j].z) + margin * weight - sole[j].y;
+            if (missing > 0) lift = fmax(lift, missing / weight);
+        }
+    }
+    to->foot.clearance = lift;
+}
+
+bool gait_plan(const Gait *g, Arena *arena, GaitPlan *out, Error *e) {
+    *out = (GaitPlan){.gait = *g, .body = gait_body(100 * g->height), .nsteps = g->steps + 3};
+    out->ground = (GaitGround){.slope = g->slope, .rise = 100 * g->stair_rise, .run = 100 * g->stair_run, .count = g->stair_count};
+    out->step = ARENA_NEW(arena, GaitStep, out->nsteps, e);
+    if (!out->step) return false;
+    /* The first riser stands so that the last level step ends right before it. */
+    if (g->stair_count > 0) out->ground.first = 100 * g->step_length * steps_before(out) - tread(out, 0);
+    bool turns = g->preset[0] == 't';
+    for (int i = 0; i < out->nsteps; i++) {
+        GaitStep *step = out->step + i;
+        int k = i < 1 ? 0 : i > g->steps + 1 ? g->steps : i - 1;
+        step->foot.side = i % 2;
+        if (turns) follow_turn(out, 100 * g->step_length * k, step);
+        else follow_track(out, k, step);
+        place_foot(out, i, i < 2 || i > g->steps ? STANDING_WIDTH : WALKING_WIDTH, step);
+        if (i >= 2) shape_swing(out, step - 2, step);
+    }
+    for (int i = 2; i < out->nsteps; i++) clear_ground(out, out->step + i - 2, out->step + i);
+    out->start = -1;
+    out->end = g->steps + 2;
+    return true;
+}
+
+/* Middle of the feet that meet the ground at times k - 1 and k. */
+static GaitStep between(const GaitPlan *plan, int k) {
+    int last = plan->nsteps - 1, a = k < 0 ? 0 : k > last ? last : k, b = k + 1 < 0 ? 0 : k + 1 > last ? last : k + 1;
+    const GaitStep *p = plan->step + a, *q = plan->step + b;
+    return (GaitStep){.centre = vec_mid(p->centre, q->centre), .heading = (p->heading + q->heading) / 2};
+}
+
+/* Uniform cubic B-spline: weight of the control point `away` from t. */
+static double spline_weight(double away) {
+    double x = fabs(away);
+    return x >= 2 ? 0 : x >= 1 ? (2 - x) * (2 - x) * (2 - x) / 6 : 2.0 / 3 - x * x + x * x * x / 2;
+}
+
+Vec3 gait_plan_centre(const GaitPlan *plan, double t) {
+    Vec3 sum = {0, 0, 0};
+    for (int k = (int)floor(t) - 1; k <= (int)floor(t) + 2; k++) sum = vec_mad(sum, between(plan, k).centre, spline_weight(t - k));
+    return sum;
+}
+
+double gait_plan_heading(const GaitPlan *plan, double t) {
+    double sum = 0;
+    for (int k = (int)floor(t) - 1; k <= (int)floor(t) + 2; k++) sum += between(plan, k).heading * spline_weight(t - k);
+    return sum;
+}
+
+FootPose gait_plan_foot(const GaitPlan *plan, int side, double t, double *swing) {
+    int i = (int)floor(clamp(t, -1, plan->nsteps)) + 1;
+    if (i >= plan->nsteps) i = plan->nsteps - 1;
+    if (i % 2 != side) i += i > 0 ? -1 : 1;
+    const GaitStep *now = plan->step + i;
+    *swing = 0;
+    if (t < now->foot.release || i + 2 >= plan->nsteps) return gait_foot_stand(&plan->body, &now->foot, t);
+    *swing = clamp((t - now->foot.release) / (now[2].foot.contact - now->foot.release), 0, 1);
+    return gait_foot_swing(&plan->body, &now->foot, &now[2].foot, t);
+}
