@@ -14,6 +14,7 @@ typedef struct {
                                       sees is what was tested */
     Rigid to_part[BODY_PARTS_MAX]; /* world (metres) -> part frame */
     Mat3 to_world[BODY_PARTS_MAX]; /* part frame -> world, directions */
+    Box box[BODY_PARTS_MAX];       /* of each part; world, metres; a little larger than it */
     CrossingSet edges[BODY_PARTS_MAX], triangles[BODY_PARTS_MAX];
     double seconds;                /* that posing took */
 } BodyFrame;
@@ -26,6 +27,13 @@ void body_frame_pose(BodyFrame *f, const Pose *pose);
 /* Signed distance (metres) of a world point from a part; *normal, if not NULL, in the world.
    See body_distance for `far`. */
 double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal);
+
+/* Is p farther than `far` from a part for certain? A cheap question before the exact one. */
+static inline bool body_frame_far(const BodyFrame *f, int part, Vec3 p, double far) {
+    const Box *b = &f->box[part];
+    return p.x < b->low.x - far || p.x > b->high.x + far || p.y < b->low.y - far || p.y > b->high.y + far ||
+           p.z < b->low.z - far || p.z > b->high.z + far;
+}
 
 /* Bit 1 << role of a part. */
 static inline unsigned part_bit(const BodyFrame *f, int part) { return 1u << f->body->part[part].role; }

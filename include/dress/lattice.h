@@ -34,7 +34,7 @@ typedef struct {
     int nplaces;
     int *place;         /* [patch][i * (side + 1) + j]: number of the place */
     int *owner;         /* place -> patch * (side + 1)^2 + i * (side + 1) + j of the patch that evaluates it */
-    unsigned *collide;  /* place -> parts that it must stay out of (union over its patches) */
+    unsigned *collide;  /* place -> parts that it must stay out of (those that its patches share) */
     bool *pinned;       /* place */
     LatticeLevel level[LATTICE_LEVELS];
     double (*basis)[4], (*basis_slope)[4]; /* Bernstein values at i / side */

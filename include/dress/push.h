@@ -11,6 +11,8 @@ typedef struct {
     int id[4 * LATTICE_LEVELS];       /* into Push.displacement */
     double weight[4 * LATTICE_LEVELS], norm2;
     double spent, budget;             /* push issued in this frame, and its limit; metres */
+    Vec3 seen;                        /* where it was when its distances were last taken, */
+    double slack;                     /* and how far it may go from there before that matters */
 } PushSample;
 
 /* The garment's displacement, carried from frame to frame, and the solver's memory. */
@@ -53,6 +55,9 @@ void push_solve(Push *p, const Patch *root, const BodyFrame *body, const Leaves 
    reached. */
 bool push_raise(Push *p, int vertex, double by);
 void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
+
+/* Fills what the solution amounts to: active, pinched, displacement. */
+void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
 
 /* Unit normal of the displaced patches at a mesh vertex (analytic; offsets left out). */
 Vec3 push_normal(const Push *p, const Patch *root, const Sheet *sheet, int vertex);

@@ -12,6 +12,7 @@ typedef struct {
     const unsigned *own;  /* per vertex: parts (bits 1 << role) that must not show there */
     Crossing *found;
     int capacity;
+    int *bad, nbad;       /* vertices of the pairs that must not be, in the order found */
 } Tester;
 
 typedef struct {
@@ -28,12 +29,11 @@ MUST_CHECK bool tester_reserve(Tester *t, int edges, int triangles, Arena *arena
 void tester_build(Tester *t, const Vec3 *position, const Edge *edge, int nedges, const Triangle *triangle,
                   int ntriangles, const unsigned *own);
 
-/* Are all corners of the found pair's garment triangle (edge) such that the part must not show? */
-bool tester_owns_triangle(const Tester *t, int triangle, unsigned part);
-bool tester_owns_edge(const Tester *t, int edge, unsigned part);
+/* Counts the crossings with the parts in `parts` (bits 1 << role): *own where the part must not
+   show, *other elsewhere. Appends the garment vertices of the former to t->bad. */
+void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other, CrossingCount *count);
 
-/* Counts against the whole body: *own where the part must not show, *other elsewhere. */
-void tester_count(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own, Residual *other,
-                  CrossingCount *count);
+/* Counts the vertices inside any part. */
+void tester_inside(const Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own, Residual *other);
 
 #endif

@@ -91,45 +91,23 @@ static void snap_points(Dresser *d, double unit) {
     tester_build(&d->tester, d->position, d->sheet.edge, d->sheet.nedges, d->sheet.triangle, d->sheet.ntriangles, d->own);
 }
 
-/* Asks for more distance round everything that still crosses a collider of its own. Returns how
-   many pairs there are; *raised tells whether any vertex could be asked. */
-static int raise_crossings(Dresser *d, const BodyFrame *body, CrossingCount *count, bool *raised) {
-    Tester *t = &d->tester;
-    int hits = 0;
-    *raised = false;
-    for (int part = 0; part < body->body->nparts; part++) {
-        unsigned bit = part_bit(body, part);
-        if (!(d->fit.own & bit)) continue;
-        int n = crossing_find(&body->edges[part], &t->triangles, t->found, t->capacity, count);
-        for (int k = 0; k < n; k++) {
-            if (!tester_owns_triangle(t, t->found[k].triangle, bit)) continue;
-            for (int c = 0; c < 3; c++) *raised |= push_raise(&d->push, d->sheet.triangle[t->found[k].triangle].v[c], RAISE);
-            hits++;
-        }
-        n = crossing_find(&t->edges, &body->triangles[part], t->found, t->capacity, count);
-        for (int k = 0; k < n; k++) {
-            if (!tester_owns_edge(t, t->found[k].edge, bit)) continue;
-            for (int c = 0; c < 2; c++) *raised |= push_raise(&d->push, d->sheet.edge[t->found[k].edge].v[c], RAISE);
-            hits++;
-        }
-    }
-    return hits;
-}
-
-/* Tests the mesh and mends what chords of facets cut, until nothing is left or a cap. */
-static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
+/* Tests the mesh and asks for more distance round everything that still crosses a collider of
+   its own, until nothing does or a cap. Crossings of the last round go to *own and *other. */
+static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Residual *own, Residual *other, CrossingCount *count) {
     PushResult result;
     double start = clock_seconds();
     push_solve(&d->push, d->root, body, &d->leaves, &d->sheet, &result);
     stats->push_s += clock_seconds() - start;
     for (int round = 0;; round++) {
-        bool raised;
         start = clock_seconds();
+        *own = *other = (Residual){0};
         snap_points(d, body->unit);
-        int hits = raise_crossings(d, body, count, &raised);
+        tester_cross(&d->tester, body, d->fit.collide, own, other, count);
+        bool raised = false;
+        for (int k = 0; k < d->tester.nbad; k++) raised |= push_raise(&d->push, d->tester.bad[k], RAISE);
         double tested = clock_seconds();
         stats->test_s += tested - start;
-        if (!hits) break;
+        if (!d->tester.nbad) break;
         if (!raised || round == ROUNDS_MAX) {
             stats->capped = true;
             break;
@@ -137,6 +115,7 @@ static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, 
         push_settle(&d->push, body, &d->sheet, &result);
         stats->push_s += clock_seconds() - tested;
     }
+    push_measure(&d->push, body, &d->sheet, &result);
     stats->sweeps = result.sweeps;
     stats->active = result.active;
     stats->pinched = result.pinched;
@@ -144,17 +123,18 @@ static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, 
     stats->capped |= result.capped;
 }
 
-static void final_test(Dresser *d, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
+/* The parts that the garment does not collide with, and what lies inside any. */
+static void final_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Residual *own, Residual *other, CrossingCount *count) {
     double start = clock_seconds();
-    Residual own = {0}, limbs = {0};
-    tester_count(&d->tester, body, d->position, d->sheet.nvertices, &own, &limbs, count);
-    stats->residual_edges = own.edges;
-    stats->residual_cloth = own.cloth;
-    stats->inside = own.inside;
-    stats->deepest = own.deepest;
-    stats->limb_edges = limbs.edges;
-    stats->limb_cloth = limbs.cloth;
-    stats->limb_inside = limbs.inside;
+    tester_cross(&d->tester, body, ~d->fit.collide, own, other, count);
+    tester_inside(&d->tester, body, d->position, d->sheet.nvertices, own, other);
+    stats->residual_edges = own->edges;
+    stats->residual_cloth = own->cloth;
+    stats->inside = own->inside;
+    stats->deepest = own->deepest;
+    stats->limb_edges = other->edges;
+    stats->limb_cloth = other->cloth;
+    stats->limb_inside = other->inside;
     stats->test_s += clock_seconds() - start;
 }
 
@@ -194,8 +174,9 @@ void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, M
     tessellate(&d->sheet, d->options.fixed_topology ? &d->grid : &d->leaves);
     stats->mesh_s = clock_seconds() - classified;
 
-    push_and_test(d, body, stats, &found.count);
-    final_test(d, body, stats, &found.count);
+    Residual own, other;
+    push_and_test(d, body, stats, &own, &other, &found.count);
+    final_test(d, body, stats, &own, &other, &found.count);
 
     start = clock_seconds();
     fill_mesh(d, mesh);

@@ -4,6 +4,9 @@
 
 #include <string.h>
 
+/* Marks a place whose patches have no collider in common; no role has this bit. */
+static const unsigned UNSHARED = 1u << 31;
+
 /* Lattice coordinates of step k along a side. */
 static void side_place(const Lattice *l, Side side, int k, int *i, int *j) {
     *i = side == SIDE_START ? 0 : side == SIDE_END ? l->side : k;
@@ -66,12 +69,24 @@ static void number_places(Lattice *l, int *corner) {
     }
 }
 
-/* Colliders and pins of the places: a place on a shared edge obeys both patches. */
+/* Colliders and pins of the places. A place on a shared edge keeps out of what both patches keep
+   out of: at a crotch, where the legs themselves touch, nothing else can be asked. Where two
+   patches have nothing in common it keeps out of both's. */
 static void mark_places(Lattice *l) {
+    for (int place = 0; place < l->nplaces; place++) l->collide[place] = ~0u;
+    for (int p = 0; p < l->fit->npatches; p++)
+        for (int i = 0; i <= l->side; i++)
+            for (int j = 0; j <= l->side; j++) l->collide[*slot(l, p, i, j)] &= l->fit->patch[p].collide;
+    for (int p = 0; p < l->fit->npatches; p++)
+        for (int i = 0; i <= l->side; i++)
+            for (int j = 0; j <= l->side; j++) {
+                unsigned *collide = &l->collide[*slot(l, p, i, j)];
+                if (!*collide) *collide = UNSHARED;
+                if (*collide & UNSHARED) *collide |= l->fit->patch[p].collide;
+            }
+    for (int place = 0; place < l->nplaces; place++) l->collide[place] &= ~UNSHARED;
     for (int p = 0; p < l->fit->npatches; p++) {
         const FitPatch *patch = &l->fit->patch[p];
-        for (int i = 0; i <= l->side; i++)
-            for (int j = 0; j <= l->side; j++) l->collide[*slot(l, p, i, j)] |= patch->collide;
         for (int s = 0; s < 4; s++)
             for (int k = 0, i, j; patch->pinned >> s & 1 && k <= l->side; k++) {
                 side_place(l, (Side)s, k, &i, &j);

@@ -10,9 +10,10 @@
 #include <string.h>
 
 /* Caps and tolerances, metres on a figure of 1.70 m where they are lengths. */
-enum { SWEEPS_MAX = 30, ROUNDS_MAX = 3, SETTLES_MAX = 4 };
+enum { SWEEPS_MAX = 30, STALL = 5, ROUNDS_MAX = 3, SETTLES_MAX = 4 };
 static const double REACH = 0.04;       /* vertices farther from the body are not swept */
 static const double SLACK = 0.1;        /* share of the clearance that may be missing after sweeps */
+static const double LIPSCHITZ = 0.8;    /* distances are of first order: trust this share of a slack */
 static const double FADE = 0.8;         /* of the carried displacement, in 1/30 s */
 static const double FELT = 0.0002;      /* a carried displacement below this is dropped */
 static const double NORM_MIN = 0.02;    /* a sample that level vertices hardly move is left to offsets */
@@ -196,25 +197,54 @@ static void project(Push *p, PushSample *s, const Sheet *sheet, Vec3 n, double d
     }
 }
 
-/* One pass over all samples; returns how far a sample was pushed at most, 0 = nothing to do. */
+/* Pushes one sample out of the parts it is too near to. Distances change no faster than the
+   point moves, so a sample that has been found clear is left alone until it has used up its
+   slack. Returns the depth of the worst violation that was acted on. */
+static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, PushSample *s, PushResult *result) {
+    double clearance = p->clearance[s->vertex], most = 0, slack = INFINITY;
+    Vec3 x = sample_point(p, sheet, s);
+    if (s->slack > 0 && vec_dist(x, s->seen) < s->slack) return 0;
+    s->seen = x;
+    for (int part = 0; s->near >> part; part++) {
+        if (!(s->near >> part & 1)) continue;
+        Vec3 n;
+        double depth = clearance - distance(p, body, part, x, clearance + REACH * p->scale, &n);
+        slack = fmin(slack, SLACK * clearance - depth);
+        if (depth <= SLACK * clearance) continue;
+        if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->scale;
+        if (s->spent > s->budget) continue; /* pinched: it has had its say */
+        s->spent += depth;
+        project(p, s, sheet, n, depth, result);
+        x = sample_point(p, sheet, s);
+        most = fmax(most, depth);
+    }
+    s->slack = LIPSCHITZ * slack;
+    return most;
+}
+
+/* One pass over all samples; returns how far one was pushed at most, 0 = nothing to do. */
 static double sweep(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
     double most = 0;
-    for (int k = 0; k < p->nsamples; k++) {
-        PushSample *s = &p->sample[k];
-        double clearance = p->clearance[s->vertex];
-        for (int part = 0; s->near >> part; part++) {
-            if (!(s->near >> part & 1)) continue;
-            Vec3 n, x = sample_point(p, sheet, s);
-            double depth = clearance - distance(p, body, part, x, clearance, &n);
-            if (depth <= SLACK * clearance) continue;
-            if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->scale;
-            if (s->spent > s->budget) continue; /* pinched: it has had its say */
-            s->spent += depth;
-            project(p, s, sheet, n, depth, result);
-            if (depth > most) most = depth;
+    for (int k = 0; k < p->nsamples; k++) most = fmax(most, push_sample(p, body, sheet, &p->sample[k], result));
+    return most;
+}
+
+/* Sweeps until nothing is violated, or nothing gets better, or the cap. Returns the sum of the
+   largest moves: nobody has gone farther. */
+static double sweep_all(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
+    double moved = 0, before = INFINITY;
+    for (int k = 0; k < SWEEPS_MAX; k++) {
+        double most = sweep(p, body, sheet, result);
+        if (most <= 0) return moved;
+        moved += most;
+        result->sweeps++;
+        if (k % STALL == STALL - 1) {
+            if (most > 0.5 * before) break;
+            before = most;
         }
     }
-    return most;
+    result->capped = true;
+    return moved;
 }
 
 /* Single vertices that the sweeps left too near are moved by their own offset. */
@@ -237,17 +267,6 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
     }
 }
 
-static void measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
-    result->active = result->pinched = 0;
-    result->displacement = 0;
-    for (int k = 0; k < p->start[LATTICE_LEVELS]; k++) result->active += !is_zero(p->displacement[k]);
-    for (int v = 0; v < sheet->nvertices; v++) result->displacement = fmax(result->displacement, vec_dist(p->point[v], p->global[v]));
-    for (int k = 0; k < p->nsamples; k++) {
-        const PushSample *s = &p->sample[k];
-        if (s->budget >= 0 && parts_near(p, body, sheet->place[s->vertex], p->point[s->vertex], 0)) result->pinched++;
-    }
-}
-
 void push_solve(Push *p, const Patch *root, const BodyFrame *body, const Leaves *leaves, const Sheet *sheet, PushResult *result) {
     *result = (PushResult){0};
     p->nraised = 0;
@@ -258,21 +277,13 @@ void push_solve(Push *p, const Patch *root, const BodyFrame *body, const Leaves 
         p->clearance[v] = PUSH_MARGIN * p->scale;
     }
     for (int round = 0; round < ROUNDS_MAX; round++) {
-        double moved = 0;
         find_samples(p, body, sheet);
-        for (int k = 0; k < SWEEPS_MAX; k++) {
-            double most = sweep(p, body, sheet, result);
-            if (most <= 0) break;
-            moved += most;
-            result->sweeps++;
-            if (k + 1 == SWEEPS_MAX) result->capped = true;
-        }
+        double moved = sweep_all(p, body, sheet, result);
         if (moved < REACH * p->scale) break; /* nobody can have come near who was not */
     }
     for (int v = 0; v < sheet->nvertices; v++)
         p->point[v] = vec_add(vec_add(p->global[v], p->offset[sheet->place[v]]), field(p, sheet->place[v]));
     for (int k = 0; k < p->nsamples; k++) settle_vertex(p, body, sheet, p->sample[k].vertex, p->sample[k].near, &result->capped);
-    measure(p, body, sheet, result);
 }
 
 bool push_raise(Push *p, int vertex, double by) {
@@ -288,7 +299,17 @@ void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult 
         int v = p->raised[k];
         settle_vertex(p, body, sheet, v, parts_near(p, body, sheet->place[v], p->point[v], p->clearance[v]), &result->capped);
     }
-    measure(p, body, sheet, result);
+}
+
+void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
+    result->active = result->pinched = 0;
+    result->displacement = 0;
+    for (int k = 0; k < p->start[LATTICE_LEVELS]; k++) result->active += !is_zero(p->displacement[k]);
+    for (int v = 0; v < sheet->nvertices; v++) result->displacement = fmax(result->displacement, vec_dist(p->point[v], p->global[v]));
+    for (int k = 0; k < p->nsamples; k++) {
+        const PushSample *s = &p->sample[k];
+        if (s->budget >= 0 && parts_near(p, body, sheet->place[s->vertex], p->point[s->vertex], 0)) result->pinched++;
+    }
 }
 
 Vec3 push_normal(const Push *p, const Patch *root, const Sheet *sheet, int vertex) {

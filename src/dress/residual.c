@@ -7,7 +7,8 @@ enum { FOUND_MAX = 1 << 14 };
 bool tester_reserve(Tester *t, int edges, int triangles, Arena *arena, Error *e) {
     t->capacity = FOUND_MAX;
     t->found = ARENA_NEW(arena, Crossing, t->capacity, e);
-    return t->found && crossing_reserve(&t->edges, edges, arena, e) && crossing_reserve(&t->triangles, triangles, arena, e);
+    t->bad = ARENA_NEW(arena, int, 3 * t->capacity, e);
+    return t->found && t->bad && crossing_reserve(&t->edges, edges, arena, e) && crossing_reserve(&t->triangles, triangles, arena, e);
 }
 
 void tester_build(Tester *t, const Vec3 *position, const Edge *edge, int nedges, const Triangle *triangle,
@@ -15,41 +16,49 @@ void tester_build(Tester *t, const Vec3 *position, const Edge *edge, int nedges,
     t->edge = edge;
     t->triangle = triangle;
     t->own = own;
+    t->nbad = 0;
     crossing_build_edges(&t->edges, position, edge, nedges);
     crossing_build_triangles(&t->triangles, position, triangle, ntriangles);
 }
 
-bool tester_owns_triangle(const Tester *t, int triangle, unsigned part) {
-    const int *v = t->triangle[triangle].v;
-    return t->own[v[0]] & t->own[v[1]] & t->own[v[2]] & part;
+/* Counts the listed pairs by whether the part must not show at all `corners` vertices of the
+   garment's item; pairs that the list could not hold count as bad. */
+static void sort_found(Tester *t, unsigned bit, bool is_triangle, int listed, int hits, int *own, int *other) {
+    for (int k = 0; k < listed; k++) {
+        const int *v = is_triangle ? t->triangle[t->found[k].triangle].v : t->edge[t->found[k].edge].v;
+        int corners = is_triangle ? 3 : 2;
+        unsigned all = bit;
+        for (int c = 0; c < corners; c++) all &= t->own[v[c]];
+        if (!all) {
+            ++*other;
+            continue;
+        }
+        ++*own;
+        for (int c = 0; c < corners && t->nbad < 3 * t->capacity; c++) t->bad[t->nbad++] = v[c];
+    }
+    *own += hits - listed;
 }
 
-bool tester_owns_edge(const Tester *t, int edge, unsigned part) {
-    const int *v = t->edge[edge].v;
-    return t->own[v[0]] & t->own[v[1]] & part;
-}
-
-void tester_count(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own, Residual *other,
-                  CrossingCount *count) {
-    double to_metres = 1 / body->unit;
+void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other, CrossingCount *count) {
     for (int p = 0; p < body->body->nparts; p++) {
         unsigned bit = part_bit(body, p);
-        int before = count->hits, listed = crossing_find(&body->edges[p], &t->triangles, t->found, t->capacity, count), mine = 0;
-        for (int k = 0; k < listed; k++) mine += tester_owns_triangle(t, t->found[k].triangle, bit);
-        own->edges += mine + (count->hits - before - listed); /* what the list could not hold counts as bad */
-        other->edges += listed - mine;
+        if (!(parts & bit)) continue;
+        int before = count->hits, listed = crossing_find(&body->edges[p], &t->triangles, t->found, t->capacity, count);
+        sort_found(t, bit, true, listed, count->hits - before, &own->edges, &other->edges);
         before = count->hits;
         listed = crossing_find(&t->edges, &body->triangles[p], t->found, t->capacity, count);
-        mine = 0;
-        for (int k = 0; k < listed; k++) mine += tester_owns_edge(t, t->found[k].edge, bit);
-        own->cloth += mine + (count->hits - before - listed);
-        other->cloth += listed - mine;
+        sort_found(t, bit, false, listed, count->hits - before, &own->cloth, &other->cloth);
+    }
+}
+
+void tester_inside(const Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own, Residual *other) {
+    double to_metres = 1 / body->unit;
+    for (int p = 0; p < body->body->nparts; p++)
         for (int v = 0; v < nvertices; v++) {
             double d = body_frame_distance(body, p, vec_scale(position[v], to_metres), 0, NULL);
             if (d >= 0) continue;
-            Residual *r = t->own[v] & bit ? own : other;
+            Residual *r = t->own[v] & part_bit(body, p) ? own : other;
             r->inside++;
-            if (-d > r->deepest) r->deepest = -d;
+            r->deepest = fmax(r->deepest, -d);
         }
-    }
 }
