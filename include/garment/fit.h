@@ -14,9 +14,13 @@ typedef struct {
 } FitNode;
 
 /* One cubic arc of a ring. Control points 0 and 1 follow node a, 2 and 3 node b, so that arcs
-   that meet at a node keep a common tangent there in every pose. */
+   that meet at a node keep a common tangent there in every pose. A half arc whose middle station
+   is bound by itself is shaped by that station: its inner points reach as far as they would
+   following `middle`, in the direction that `turn` gives them, which is common to the arcs of the
+   ring that meet at this end. */
 typedef struct {
     int node[2];
+    Binding middle, turn[2]; /* middle.n == 0: not used */
     Vec3 rest[4];
     int ring;
     double unit[4][2]; /* the same points on the unit circle: x to the left, z to the front */

@@ -36,13 +36,24 @@ static Rigid blend(const Pose *pose, const Binding *b, Vec3 rest) {
     return (Rigid){r, vec_sub(p, mat_apply(r, rest))};
 }
 
+/* An inner point of a half arc that its middle station shapes; `node` is the arc's end. A handle
+   never shrinks below a share of its rest length, or a leg bent far would turn it over. */
+static Vec3 shaped_handle(const FitCurve *curve, int end, const Pose *pose, Vec3 node) {
+    static const double LEAST = 0.3;
+    Vec3 rest = curve->rest[1 + end], arm = vec_sub(rest, curve->rest[3 * end]);
+    Vec3 wanted = rigid_apply(blend(pose, &curve->middle, rest), rest);
+    Vec3 direction = vec_unit_or(mat_apply(blend(pose, &curve->turn[end], rest).r, arm), arm);
+    return vec_mad(node, direction, fmax(vec_dot(vec_sub(wanted, node), direction), LEAST * vec_len(arm)));
+}
+
 static void curves_by_bones(Follower *f, const Pose *pose) {
     for (int c = 0; c < f->fit->ncurves; c++) {
         const FitCurve *curve = &f->fit->curve[c];
         for (int end = 0; end < 2; end++) {
             const FitNode *node = &f->fit->node[curve->node[end]];
             Rigid g = blend(pose, &node->binding, node->rest);
-            for (int k = 2 * end; k < 2 * end + 2; k++) f->curve[c][k] = rigid_apply(g, curve->rest[k]);
+            Vec3 at = f->curve[c][3 * end] = rigid_apply(g, curve->rest[3 * end]);
+            f->curve[c][1 + end] = curve->middle.n ? shaped_handle(curve, end, pose, at) : rigid_apply(g, curve->rest[1 + end]);
         }
     }
 }

@@ -159,6 +159,7 @@ static void make_curve(const Tailor *t, const Row *row, FitCurve *c) {
     station_unit(quarter ? row->from : row->via, arrive);
     double k = quarter ? QUARTER : HALF;
     *c = (FitCurve){.ring = r, .node = {t->node_of[r][row->from], t->node_of[r][row->to]}};
+    if (!quarter) c->middle = t->g->ring[r].binding[row->via];
     for (int i = 0; i < 2; i++) {
         c->unit[0][i] = a[i];
         c->unit[1][i] = a[i] + k * leave[i];
@@ -180,6 +181,21 @@ static int curve_of(Tailor *t, const Row *row) {
         if (f->curve[i].ring == made.ring && memcmp(f->curve[i].unit, made.unit, sizeof made.unit) == 0) return i;
     f->curve[f->ncurves] = made;
     return f->ncurves++;
+}
+
+/* What turns the handles of half arcs at their ends: the mean of the middle stations of all arcs
+   of the ring that meet there. */
+static void find_turns(Fit *f) {
+    for (int c = 0; c < f->ncurves; c++)
+        for (int end = 0; end < 2 && f->curve[c].middle.n; end++) {
+            Binding turn = f->curve[c].middle;
+            for (int k = 0; k < f->ncurves; k++) {
+                const FitCurve *other = &f->curve[k];
+                bool meets = other->node[0] == f->curve[c].node[end] || other->node[1] == f->curve[c].node[end];
+                if (k != c && meets && other->ring == f->curve[c].ring && other->middle.n) turn = mean_binding(turn, other->middle);
+            }
+            f->curve[c].turn[end] = mean_binding(turn, f->node[f->curve[c].node[end]].binding);
+        }
 }
 
 /* Parameter length between two rows: the mean distance of their control points, taken over all
@@ -208,6 +224,7 @@ static bool make_panels(Tailor *t, Error *e) {
         f->panel[p].nrows = g->panel[p].nrows;
         for (int k = 0; k < g->panel[p].nrows; k++) f->panel[p].curve[k] = curve_of(t, &g->panel[p].row[k]);
     }
+    find_turns(f);
     for (int p = 0; p < f->npanels; p++)
         for (int k = 0; k + 1 < f->panel[p].nrows; k++)
             f->panel[p].height[k] = row_height(f, f->curve[f->panel[p].curve[k]].ring, f->curve[f->panel[p].curve[k + 1]].ring);
