@@ -18,22 +18,26 @@ bool follow_reserve(Follower *f, const Fit *fit, const Figure *figure, const Bod
     return f->curve && f->slope && f->node_slope && f->node_uses;
 }
 
-/* Weighted bones: positions blend linearly, directions by the mean rotation, so that handles
-   keep their length where bones turn far apart. */
-static Rigid blend(const Pose *pose, const Binding *b, Vec3 rest) {
-    Vec3 p = {0, 0, 0};
+/* Weighted bones as one rigid motion, by dual quaternions (Kavan et al. 2007): between two bones
+   of a joint it turns about the joint, so a knee's ring keeps its width however far it bends. */
+static Rigid blend(const Pose *pose, const Binding *b) {
     Quat mean = {0, 0, 0, 0}, first = quat_from_mat(pose->bone[b->bone[0]].r);
+    Vec3 dual = {0, 0, 0}; /* vector and scalar part of the sum of t q, that is twice the dual part */
+    double dual_w = 0;
     for (int i = 0; i < b->n; i++) {
         const Rigid *g = &pose->bone[b->bone[i]];
-        p = vec_mad(p, rigid_apply(*g, rest), b->weight[i]);
         Quat q = quat_from_mat(g->r);
+        Vec3 v = {q.x, q.y, q.z};
         double s = q.w * first.w + q.x * first.x + q.y * first.y + q.z * first.z < 0 ? -b->weight[i] : b->weight[i];
         mean = (Quat){mean.w + s * q.w, mean.x + s * q.x, mean.y + s * q.y, mean.z + s * q.z};
+        dual = vec_mad(dual, vec_add(vec_scale(g->t, q.w), vec_cross(g->t, v)), s);
+        dual_w -= s * vec_dot(g->t, v);
     }
     double n = sqrt(mean.w * mean.w + mean.x * mean.x + mean.y * mean.y + mean.z * mean.z);
-    if (n < 1e-6) mean = first, n = 1;
-    Mat3 r = mat_from_quat((Quat){mean.w / n, mean.x / n, mean.y / n, mean.z / n});
-    return (Rigid){r, vec_sub(p, mat_apply(r, rest))};
+    if (n < 1e-6) return pose->bone[b->bone[0]]; /* bones turned against each other: no mean */
+    Vec3 v = {mean.x, mean.y, mean.z};
+    Vec3 t = vec_add(vec_mad(vec_scale(dual, mean.w), v, -dual_w), vec_cross(v, dual));
+    return (Rigid){mat_from_quat((Quat){mean.w / n, v.x / n, v.y / n, v.z / n}), vec_scale(t, 1 / (n * n))};
 }
 
 /* An inner point of a half arc that its middle station shapes; `node` is the arc's end. A handle
@@ -41,8 +45,8 @@ static Rigid blend(const Pose *pose, const Binding *b, Vec3 rest) {
 static Vec3 shaped_handle(const FitCurve *curve, int end, const Pose *pose, Vec3 node) {
     static const double LEAST = 0.3;
     Vec3 rest = curve->rest[1 + end], arm = vec_sub(rest, curve->rest[3 * end]);
-    Vec3 wanted = rigid_apply(blend(pose, &curve->middle, rest), rest);
-    Vec3 direction = vec_unit_or(mat_apply(blend(pose, &curve->turn[end], rest).r, arm), arm);
+    Vec3 wanted = rigid_apply(blend(pose, &curve->middle), rest);
+    Vec3 direction = vec_unit_or(mat_apply(blend(pose, &curve->turn[end]).r, arm), arm);
     return vec_mad(node, direction, fmax(vec_dot(vec_sub(wanted, node), direction), LEAST * vec_len(arm)));
 }
 
@@ -51,7 +55,7 @@ static void curves_by_bones(Follower *f, const Pose *pose) {
         const FitCurve *curve = &f->fit->curve[c];
         for (int end = 0; end < 2; end++) {
             const FitNode *node = &f->fit->node[curve->node[end]];
-            Rigid g = blend(pose, &node->binding, node->rest);
+            Rigid g = blend(pose, &node->binding);
             Vec3 at = f->curve[c][3 * end] = rigid_apply(g, curve->rest[3 * end]);
             f->curve[c][1 + end] = curve->middle.n ? shaped_handle(curve, end, pose, at) : rigid_apply(g, curve->rest[1 + end]);
         }
