@@ -17,24 +17,23 @@ typedef struct {
 
 /* Boxes over one set of segments or triangles, made for repeated queries. Memory is taken at
    crossing_reserve and kept; building allocates nothing. Private inside. */
-typedef struct CrossingTile CrossingTile;
-typedef struct CrossingItem CrossingItem;
+typedef struct CrossingTile CrossingTile;   /* sixteen boxes */
+typedef struct CrossingSieve CrossingSieve; /* sixteen segments or planes */
 enum { CROSSING_LEVELS = 3 };
 typedef struct {
     int capacity, count;  /* items */
-    const Vec3 *position; /* borrowed: must stay as it is until the next build */
-    const int *index;     /* borrowed: per item 2 (segments) or 3 (triangles) vertex indices */
-    int corners;          /* 2 or 3 */
-    float reach;          /* largest coordinate magnitude */
-    CrossingTile *level[CROSSING_LEVELS]; /* boxes of items, of tiles of 16 items, of tiles of 16 of those */
-    CrossingItem *item;   /* per tile of items, what the filter needs */
+    const Vec3 *position; /* borrowed, as is the next: both must stay until the next build */
+    const int *index;     /* per item 2 (segments) or 3 (triangles) vertices */
+    float reach;          /* largest magnitude of a coordinate */
+    CrossingTile *level[CROSSING_LEVELS]; /* boxes of items, of tiles of items, of tiles of those */
+    CrossingSieve *sieve; /* per tile of items */
 } CrossingSet;
 
 MUST_CHECK bool crossing_reserve(CrossingSet *set, int capacity, Arena *arena, Error *e);
 
 /* Boxes over the segments edge[0..n-1] (or triangles) whose vertices are in position. Items
    that follow each other in the array should lie near each other: 16 share a box.
-   n <= capacity; coordinates are finite, magnitudes below 1e18. */
+   n <= capacity. Coordinates are finite, with magnitudes below 1e37. */
 void crossing_build_edges(CrossingSet *set, const Vec3 *position, const Edge *edge, int n);
 void crossing_build_triangles(CrossingSet *set, const Vec3 *position, const Triangle *triangle, int n);
 

@@ -2,243 +2,275 @@
 
    Sixteen boxes that stand side by side in arrays make a tile: one loop tests a box against all
    sixteen, and the compiler turns that loop into a few vector instructions. Items are tiled in
-   the order they come, tiles are tiled again, and so once more; a search goes down both stacks
-   at once and enters only pairs of tiles whose boxes overlap. No tree is balanced and nothing
-   is sorted, so building is one pass over the vertices.
+   the order they come, their tiles are tiled again, and these once more; a search goes down
+   both stacks at once and enters only pairs of tiles whose boxes overlap. No tree is balanced
+   and nothing is sorted, so building is one pass over the items.
 
-   Boxes are floats. Rounding keeps order: if x <= y then (float)x <= (float)y, so rounded boxes
-   of things that touch still touch, and the count of overlapping boxes is the same everywhere.
+   Boxes are floats. Rounding keeps order: if x <= y then (float)x <= (float)y. So the rounded
+   boxes of things that touch still touch, and how many overlap is the same on every machine.
 
-   Pairs whose boxes overlap meet one more sieve of sixteen lanes: both ends of the edge on one
-   side of the triangle's plane, further from it than floats can err. The few that are left are
-   decided exactly, by predicate_segment_triangle. */
+   Pairs whose boxes overlap meet one more sieve of sixteen lanes: are both ends of the edge on
+   one side of the triangle's plane, further from it than floats can err? The few that are left
+   are decided exactly, by predicate_segment_triangle. */
 #include "geometry/crossing.h"
 
 #include <float.h>
-#include <stdint.h>
 
 #include "geometry/predicate.h"
 
-enum { LANES = 16, LEVELS = CROSSING_LEVELS };
+enum { LANES = 16, TOP = CROSSING_LEVELS - 1 };
 
-struct CrossingTile { float low[3][LANES], high[3][LANES]; };
+/* Box k is low[x][k] .. high[x][k] for the axes x = 0, 1, 2. A lane without a box is empty: low
+   is larger than high, and it overlaps nothing. */
+struct CrossingTile { _Alignas(64) float low[3][LANES], high[3][LANES]; };
 
-/* Of segments the two ends. Of triangles the plane n x = w, scaled so that no part of n is
-   larger than 1; zero if there is none. */
-struct CrossingItem {
-    float v[6][LANES];
-};
+/* What the second sieve needs. Segments: v[0..2] is one end, v[3..5] the other. Triangles:
+   v[0..2] is the normal n of the plane n x = v[3], so long that |nx| + |ny| + |nz| <= 1; zero
+   where the triangle has none. */
+struct CrossingSieve { _Alignas(64) float v[6][LANES]; };
 
 static int tiles(int n) { return n / LANES + (n % LANES != 0); }
 
 bool crossing_reserve(CrossingSet *set, int capacity, Arena *arena, Error *e) {
     *set = (CrossingSet){.capacity = capacity};
-    int n = capacity;
-    for (int l = 0; l < LEVELS; l++) {
-        n = tiles(n);
+    for (int l = 0, n = tiles(capacity); l <= TOP; l++, n = tiles(n)) {
         set->level[l] = ARENA_NEW(arena, CrossingTile, n, e);
         if (!set->level[l]) return false;
     }
-    set->item = ARENA_NEW(arena, CrossingItem, tiles(capacity), e);
-    return set->item != NULL;
+    set->sieve = ARENA_NEW(arena, CrossingSieve, tiles(capacity), e);
+    return set->sieve != NULL;
 }
 
-static void tile_clear(CrossingTile *t, int from) {
-    for (int x = 0; x < 3; x++)
-        for (int k = from; k < LANES; k++) t->low[x][k] = INFINITY, t->high[x][k] = -INFINITY;
-}
+/* --- building --- */
 
+/* Written so that each is one machine instruction. */
+static inline float lesser(float a, float b) { return a < b ? a : b; }
+static inline float larger(float a, float b) { return a > b ? a : b; }
+
+/* The least and the largest of sixteen, by halves, which vectors can do. */
 static float least(const float v[LANES]) {
-    float m = v[0];
-    for (int k = 1; k < LANES; k++) m = v[k] < m ? v[k] : m;
-    return m;
-}
-static float most(const float v[LANES]) {
-    float m = v[0];
-    for (int k = 1; k < LANES; k++) m = v[k] > m ? v[k] : m;
-    return m;
+    float m[8];
+    for (int k = 0; k < 8; k++) m[k] = lesser(v[k], v[k + 8]);
+    for (int k = 0; k < 4; k++) m[k] = lesser(m[k], m[k + 4]);
+    return lesser(lesser(m[0], m[1]), lesser(m[2], m[3]));
 }
 
+static float largest(const float v[LANES]) {
+    float m[8];
+    for (int k = 0; k < 8; k++) m[k] = larger(v[k], v[k + 8]);
+    for (int k = 0; k < 4; k++) m[k] = larger(m[k], m[k + 4]);
+    return larger(larger(m[0], m[1]), larger(m[2], m[3]));
+}
+
+static void empty_lanes(CrossingTile *t, int first) {
+    for (int x = 0; x < 3; x++)
+        for (int k = first; k < LANES; k++) t->low[x][k] = INFINITY, t->high[x][k] = -INFINITY;
+}
+
+/* The boxes of the tiles below, level by level, and how far the whole set reaches. */
 static void build_levels(CrossingSet *set) {
     int n = tiles(set->count);
-    for (int l = 1; l < LEVELS; l++) {
+    for (int l = 1; l <= TOP; l++) {
         for (int t = 0; t < n; t++) {
-            CrossingTile *up = &set->level[l][t / LANES];
-            const CrossingTile *down = &set->level[l - 1][t];
+            const CrossingTile *below = &set->level[l - 1][t];
+            CrossingTile *above = &set->level[l][t / LANES];
             for (int x = 0; x < 3; x++) {
-                up->low[x][t % LANES] = least(down->low[x]);
-                up->high[x][t % LANES] = most(down->high[x]);
+                above->low[x][t % LANES] = least(below->low[x]);
+                above->high[x][t % LANES] = largest(below->high[x]);
             }
         }
-        if (n % LANES) tile_clear(&set->level[l][n / LANES], n % LANES);
+        if (n % LANES) empty_lanes(&set->level[l][n / LANES], n % LANES);
         n = tiles(n);
     }
     set->reach = 0;
     for (int t = 0; t < n; t++)
         for (int x = 0; x < 3; x++) {
-            float a = -least(set->level[LEVELS - 1][t].low[x]), b = most(set->level[LEVELS - 1][t].high[x]);
-            if (a > set->reach) set->reach = a;
-            if (b > set->reach) set->reach = b;
+            const CrossingTile *top = &set->level[TOP][t];
+            set->reach = larger(set->reach, larger(-least(top->low[x]), largest(top->high[x])));
         }
+}
+
+/* The corners of up to sixteen items, turned into lanes: v[3 c + x][k] is coordinate x of corner c
+   of item k. */
+static void gather(const CrossingSet *set, int first, int items, int corners, double v[9][LANES]) {
+    const int *i = set->index + (size_t)first * (size_t)corners;
+    for (int k = 0; k < items; k++)
+        for (int c = 0; c < corners; c++) {
+            Vec3 p = set->position[*i++];
+            v[3 * c][k] = p.x, v[3 * c + 1][k] = p.y, v[3 * c + 2][k] = p.z;
+        }
+}
+
+static void edge_lanes(double v[9][LANES], CrossingTile *box, CrossingSieve *sieve) {
+    for (int i = 0; i < 6; i++)
+        for (int k = 0; k < LANES; k++) sieve->v[i][k] = (float)v[i][k];
+    for (int x = 0; x < 3; x++)
+        for (int k = 0; k < LANES; k++) {
+            box->low[x][k] = lesser(sieve->v[x][k], sieve->v[x + 3][k]);
+            box->high[x][k] = larger(sieve->v[x][k], sieve->v[x + 3][k]);
+        }
+}
+
+/* The normal is divided by the sum of the magnitudes of all products in it, of which it is at
+   most the whole: then its error is a few roundings however thin the triangle. */
+static void triangle_lanes(double v[9][LANES], CrossingTile *box, CrossingSieve *sieve) {
+    for (int x = 0; x < 3; x++)
+        for (int k = 0; k < LANES; k++) {
+            float a = (float)v[x][k], b = (float)v[x + 3][k], c = (float)v[x + 6][k];
+            box->low[x][k] = lesser(lesser(a, b), c);
+            box->high[x][k] = larger(larger(a, b), c);
+        }
+    for (int k = 0; k < LANES; k++) {
+        double px = v[3][k] - v[0][k], py = v[4][k] - v[1][k], pz = v[5][k] - v[2][k];
+        double qx = v[6][k] - v[0][k], qy = v[7][k] - v[1][k], qz = v[8][k] - v[2][k];
+        double yz = py * qz, zy = pz * qy, zx = pz * qx, xz = px * qz, xy = px * qy, yx = py * qx;
+        double sum = fabs(yz) + fabs(zy) + fabs(zx) + fabs(xz) + fabs(xy) + fabs(yx), scale = 1 / (sum + 1e-300);
+        double nx = (yz - zy) * scale, ny = (zx - xz) * scale, nz = (xy - yx) * scale;
+        sieve->v[0][k] = (float)nx, sieve->v[1][k] = (float)ny, sieve->v[2][k] = (float)nz;
+        sieve->v[3][k] = (float)(nx * v[0][k] + ny * v[1][k] + nz * v[2][k]);
+    }
+}
+
+static void build(CrossingSet *set, const Vec3 *position, const int *index, int n, int corners,
+                  void (*lanes)(double v[9][LANES], CrossingTile *box, CrossingSieve *sieve)) {
+    double v[9][LANES] = {{0}}; /* lanes beyond the last item keep what was there: finite, and emptied below */
+    set->position = position;
+    set->index = index;
+    set->count = n;
+    for (int t = 0; t < tiles(n); t++) {
+        int items = n - t * LANES < LANES ? n - t * LANES : LANES;
+        gather(set, t * LANES, items, corners, v);
+        lanes(v, &set->level[0][t], &set->sieve[t]);
+        empty_lanes(&set->level[0][t], items);
+    }
+    build_levels(set);
 }
 
 void crossing_build_edges(CrossingSet *set, const Vec3 *position, const Edge *edge, int n) {
-    set->count = n;
-    set->position = position;
-    set->index = n ? edge[0].v : NULL;
-    set->corners = 2;
-    for (int t = 0; t < tiles(n); t++) {
-        CrossingTile *box = &set->level[0][t];
-        CrossingItem *item = &set->item[t];
-        int here = n - t * LANES < LANES ? n - t * LANES : LANES;
-        for (int k = 0; k < here; k++) {
-            Vec3 a = position[edge[t * LANES + k].v[0]], b = position[edge[t * LANES + k].v[1]];
-            item->v[0][k] = (float)a.x, item->v[1][k] = (float)a.y, item->v[2][k] = (float)a.z;
-            item->v[3][k] = (float)b.x, item->v[4][k] = (float)b.y, item->v[5][k] = (float)b.z;
-        }
-        for (int x = 0; x < 3; x++)
-            for (int k = 0; k < LANES; k++) {
-                float a = item->v[x][k], b = item->v[x + 3][k];
-                box->low[x][k] = a < b ? a : b;
-                box->high[x][k] = a > b ? a : b;
-            }
-        tile_clear(box, here);
-    }
-    build_levels(set);
-}
-
-static float least3(double a, double b, double c) { double m = a < b ? a : b; return (float)(m < c ? m : c); }
-static float most3(double a, double b, double c) { double m = a > b ? a : b; return (float)(m > c ? m : c); }
-
-/* normal and w */
-static void plane_of(Vec3 a, Vec3 b, Vec3 c, CrossingItem *item, int k) {
-    Vec3 p = vec_sub(b, a), q = vec_sub(c, a);
-    double yz = p.y * q.z, zy = p.z * q.y, zx = p.z * q.x, xz = p.x * q.z, xy = p.x * q.y, yx = p.y * q.x;
-    double size = fabs(yz) + fabs(zy) + fabs(zx) + fabs(xz) + fabs(xy) + fabs(yx);
-    double scale = size > 0 ? 1 / size : 0;
-    Vec3 n = vec((yz - zy) * scale, (zx - xz) * scale, (xy - yx) * scale);
-    item->v[0][k] = (float)n.x, item->v[1][k] = (float)n.y, item->v[2][k] = (float)n.z;
-    item->v[3][k] = (float)vec_dot(n, a);
+    build(set, position, (const int *)edge, n, 2, edge_lanes);
 }
 
 void crossing_build_triangles(CrossingSet *set, const Vec3 *position, const Triangle *triangle, int n) {
-    set->count = n;
-    set->position = position;
-    set->index = n ? triangle[0].v : NULL;
-    set->corners = 3;
-    for (int t = 0; t < tiles(n); t++) {
-        CrossingTile *box = &set->level[0][t];
-        int here = n - t * LANES < LANES ? n - t * LANES : LANES;
-        for (int k = 0; k < here; k++) {
-            const int *v = triangle[t * LANES + k].v;
-            Vec3 a = position[v[0]], b = position[v[1]], c = position[v[2]];
-            box->low[0][k] = least3(a.x, b.x, c.x), box->high[0][k] = most3(a.x, b.x, c.x);
-            box->low[1][k] = least3(a.y, b.y, c.y), box->high[1][k] = most3(a.y, b.y, c.y);
-            box->low[2][k] = least3(a.z, b.z, c.z), box->high[2][k] = most3(a.z, b.z, c.z);
-            plane_of(a, b, c, &set->item[t], k);
-        }
-        tile_clear(box, here);
-    }
-    build_levels(set);
+    build(set, position, (const int *)triangle, n, 3, triangle_lanes);
 }
 
-static const unsigned LANE[LANES] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
+/* --- the two sieves --- */
 
-/* One bit per lane of `t` whose box overlaps the box of lane k of `u`. */
-static unsigned overlaps(const CrossingTile *t, const CrossingTile *u, int k) {
-    float lx = u->low[0][k], ly = u->low[1][k], lz = u->low[2][k];
-    float hx = u->high[0][k], hy = u->high[1][k], hz = u->high[2][k];
-    unsigned mask = 0;
+/* A set of lanes: the low half has a bit for each, the high half their number, so that one sum
+   over sixteen lanes tells both. */
+typedef unsigned Lanes;
+#define LANE(k) ((1u << (k)) + 0x10000u)
+static const Lanes lane[LANES] = {LANE(0), LANE(1), LANE(2), LANE(3), LANE(4), LANE(5), LANE(6), LANE(7),
+                                  LANE(8), LANE(9), LANE(10), LANE(11), LANE(12), LANE(13), LANE(14), LANE(15)};
+static unsigned lane_bits(Lanes found) { return found & 0xFFFF; }
+static int lane_count(Lanes found) { return (int)(found >> 16); }
+static int lowest_lane(unsigned bits) { return __builtin_ctz(bits); }
+
+/* The boxes of tile a that overlap box k of tile b. */
+static Lanes overlapping(const CrossingTile *a, const CrossingTile *b, int k) {
+    float lx = b->low[0][k], ly = b->low[1][k], lz = b->low[2][k];
+    float hx = b->high[0][k], hy = b->high[1][k], hz = b->high[2][k];
+    Lanes found = 0;
     for (int i = 0; i < LANES; i++) {
-        bool over = (t->low[0][i] <= hx) & (t->high[0][i] >= lx) & (t->low[1][i] <= hy) & (t->high[1][i] >= ly)
-                  & (t->low[2][i] <= hz) & (t->high[2][i] >= lz);
-        mask |= over ? LANE[i] : 0;
+        bool yes = (a->low[0][i] <= hx) & (a->high[0][i] >= lx) & (a->low[1][i] <= hy) & (a->high[1][i] >= ly)
+                 & (a->low[2][i] <= hz) & (a->high[2][i] >= lz);
+        found += yes ? lane[i] : 0;
     }
-    return mask;
+    return found;
 }
 
-/* One bit per segment that may reach the plane of triangle k. */
-static unsigned straddles(const CrossingItem *s, const CrossingItem *t, int k, float slack) {
-    float nx = t->v[0][k], ny = t->v[1][k], nz = t->v[2][k], w = t->v[3][k];
-    unsigned mask = 0;
+/* The segments that may reach the plane of triangle k. */
+static Lanes reaching(const CrossingSieve *segments, const CrossingSieve *triangles, int k, float slack) {
+    const float(*p)[LANES] = segments->v, (*q)[LANES] = segments->v + 3;
+    float nx = triangles->v[0][k], ny = triangles->v[1][k], nz = triangles->v[2][k], w = triangles->v[3][k];
+    Lanes found = 0;
     for (int i = 0; i < LANES; i++) {
-        float a = nx * s->v[0][i] + ny * s->v[1][i] + nz * s->v[2][i] - w;
-        float b = nx * s->v[3][i] + ny * s->v[4][i] + nz * s->v[5][i] - w;
-        bool apart = ((a > slack) & (b > slack)) | ((a < -slack) & (b < -slack));
-        mask |= apart ? 0 : LANE[i];
+        float a = nx * p[0][i] + ny * p[1][i] + nz * p[2][i] - w;
+        float b = nx * q[0][i] + ny * q[1][i] + nz * q[2][i] - w;
+        bool above = lesser(a, b) > slack, below = larger(a, b) < -slack;
+        found += (above | below) ? 0 : lane[i];
     }
-    return mask;
+    return found;
 }
+
+/* --- searching --- */
 
 typedef struct {
     const CrossingSet *edges, *triangles;
+    float slack;      /* floats err less in the distance to a plane */
+    bool first_only;
     Crossing *out;
     int capacity, written;
-    float slack;
-    bool any;
     CrossingCount *count;
 } Search;
 
-static int first_lane(unsigned mask) { return __builtin_ctz(mask); }
-
-static bool decide(Search *s, int e, int t) {
-    const int *i = s->edges->index + 2 * e, *j = s->triangles->index + 3 * t;
-    const Vec3 *p = s->edges->position, *q = s->triangles->position;
-    if (!predicate_segment_triangle(p[i[0]], p[i[1]], q[j[0]], q[j[1]], q[j[2]])) return false;
+/* All below return true to end the search. */
+static bool decide(Search *s, int edge, int triangle) {
+    const int *i = s->edges->index + 2 * (size_t)edge, *j = s->triangles->index + 3 * (size_t)triangle;
+    const Vec3 *v = s->edges->position, *w = s->triangles->position;
+    if (!predicate_segment_triangle(v[i[0]], v[i[1]], w[j[0]], w[j[1]], w[j[2]])) return false;
     s->count->hits++;
-    if (s->written < s->capacity) s->out[s->written++] = (Crossing){e, t};
-    return s->any;
+    if (s->written < s->capacity) s->out[s->written++] = (Crossing){edge, triangle};
+    return s->first_only;
 }
 
+/* The items of edge tile i against some triangles of triangle tile j. */
 static bool search_items(Search *s, int i, int j, unsigned triangles) {
-    const CrossingTile *e = &s->edges->level[0][i], *t = &s->triangles->level[0][j];
+    const CrossingSet *e = s->edges, *t = s->triangles;
     for (; triangles; triangles &= triangles - 1) {
-        int k = first_lane(triangles);
-        unsigned mask = overlaps(e, t, k);
-        if (!mask) continue;
-        s->count->pairs_tested += __builtin_popcount(mask);
-        mask &= straddles(&s->edges->item[i], &s->triangles->item[j], k, s->slack);
-        for (; mask; mask &= mask - 1)
-            if (decide(s, i * LANES + first_lane(mask), j * LANES + k)) return true;
+        int k = lowest_lane(triangles);
+        Lanes found = overlapping(&e->level[0][i], &t->level[0][j], k);
+        if (!found) continue;
+        s->count->pairs_tested += lane_count(found);
+        unsigned edges = lane_bits(found & reaching(&e->sieve[i], &t->sieve[j], k, s->slack));
+        for (; edges; edges &= edges - 1)
+            if (decide(s, i * LANES + lowest_lane(edges), j * LANES + k)) return true;
     }
     return false;
 }
 
-static bool search(Search *s, int level, int i, int j, unsigned triangles) {
+/* Tile i of the edges at this level against the lanes `triangles` of tile j of the triangles. */
+static bool search_tiles(Search *s, int level, int i, int j, unsigned triangles) {
     if (level == 0) return search_items(s, i, j, triangles);
     const CrossingTile *e = &s->edges->level[level][i], *t = &s->triangles->level[level][j];
     for (; triangles; triangles &= triangles - 1) {
-        int k = first_lane(triangles);
-        for (unsigned mask = overlaps(e, t, k); mask; mask &= mask - 1) {
-            int m = first_lane(mask), down = j * LANES + k;
-            unsigned inner = overlaps(&s->triangles->level[level - 1][down], e, m);
-            if (search(s, level - 1, i * LANES + m, down, inner)) return true;
+        int k = lowest_lane(triangles), below = j * LANES + k;
+        for (unsigned edges = lane_bits(overlapping(e, t, k)); edges; edges &= edges - 1) {
+            int m = lowest_lane(edges);
+            Lanes inner = overlapping(&s->triangles->level[level - 1][below], e, m);
+            if (search_tiles(s, level - 1, i * LANES + m, below, lane_bits(inner))) return true;
         }
     }
     return false;
 }
 
-static int top_tiles(const CrossingSet *set) { return tiles(tiles(tiles(set->count))); }
+static int top_tiles(const CrossingSet *set) {
+    int n = set->count;
+    for (int l = 0; l <= TOP; l++) n = tiles(n);
+    return n;
+}
 
-static bool run(Search *s) {
-    CrossingCount *c = s->count;
-    c->pairs_all += (long long)s->edges->count * s->triangles->count;
-    float reach = s->edges->reach > s->triangles->reach ? s->edges->reach : s->triangles->reach;
-    s->slack = 32 * FLT_EPSILON * reach + FLT_MIN;
+/* The slack: with u = 2^-24 and M the reach of both sets, |n|1 <= 1 makes n x of rounded n and
+   rounded x, in three products and two sums, err by at most 6 u M, and w and the difference
+   by 2 u M more; 16 u M is ample. FLT_MIN covers what underflows. */
+static int search(Search *s) {
+    float reach = larger(s->edges->reach, s->triangles->reach);
+    s->slack = 8 * FLT_EPSILON * reach + FLT_MIN;
+    s->count->pairs_all += (long long)s->edges->count * s->triangles->count;
     for (int i = 0; i < top_tiles(s->edges); i++)
         for (int j = 0; j < top_tiles(s->triangles); j++)
-            if (search(s, LEVELS - 1, i, j, 0xFFFF)) return true;
-    return false;
+            if (search_tiles(s, TOP, i, j, 0xFFFF)) return s->written;
+    return s->written;
 }
 
 int crossing_find(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
                   CrossingCount *count) {
-    Search s = {.edges = edges, .triangles = triangles, .out = out, .capacity = capacity, .count = count};
-    run(&s);
-    return s.written;
+    Search s = {edges, triangles, .out = out, .capacity = capacity, .count = count};
+    return search(&s);
 }
 
 bool crossing_any(const CrossingSet *edges, const CrossingSet *triangles, CrossingCount *count) {
-    Search s = {.edges = edges, .triangles = triangles, .any = true, .count = count};
-    return run(&s);
+    Crossing hit;
+    Search s = {edges, triangles, .first_only = true, .out = &hit, .capacity = 1, .count = count};
+    return search(&s) > 0;
 }

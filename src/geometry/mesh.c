@@ -8,14 +8,14 @@
    matters only where it lands on a half: then what the product lost decides. */
 double mesh_snap(double x) {
     if (!(fabs(x) < 1e9)) return x;
-    const double whole = 6755399441055744.0; /* 1.5 x 2^52: adding it leaves no fraction bits, so it rounds, ties to even */
+    const double whole = 6755399441055744.0; /* 1.5 x 2^52: a sum with it has no fraction bits, nor is it ever -0 */
     double p = x * 1e6, n = (p + whole) - whole, rest = p - n;
     if (rest == 0.5 || rest == -0.5) {
         double high = (double)(float)x, low = x - high; /* 24 and 29 bits: times 1e6 (14 bits) both are exact */
         double lost = (high * 1e6 - p) + low * 1e6;
         if (lost * rest > 0) n += 2 * rest;
     }
-    return n / 1e6 + 0.0; /* -0 + 0 is 0 */
+    return n / 1e6;
 }
 
 /* The edges at a vertex that have it as their lower end form a list; few enough to search. */

@@ -1,0 +1,96 @@
+/* mesh_snap against printf and strtod, the edge list against the definition. */
+#include "geometry/mesh.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "tap.h"
+
+static uint64_t seed = 88172645463325252u;
+static uint64_t next(void) {
+    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
+    return seed;
+}
+static double unit(void) { return (double)(next() >> 11) * 0x1p-53; }
+
+static bool as_written(double x) {
+    char text[64];
+    snprintf(text, sizeof text, "%.6f", x);
+    double s = mesh_snap(x);
+    return s == strtod(text, NULL) && !(s == 0 && signbit(s));
+}
+
+static int count_bad(double (*make)(int), int n) {
+    int bad = 0;
+    for (int i = 0; i < n; i++) {
+        double x = make(i);
+        bad += !as_written(x) || !as_written(-x) || mesh_snap(mesh_snap(x)) != mesh_snap(x);
+    }
+    return bad;
+}
+
+static double metres(int i) { return (void)i, unit() * 4; }
+static double any_size(int i) { return ldexp(unit(), i % 61 - 31); } /* up to 5e8 */
+static double tiny(int i) { return ldexp(unit(), -20 - i % 1050); }
+static double tie(int i) { return (2 * i + 1) / 128.0; }             /* an exact half of a millionth */
+static double near_half(int i) {
+    double half = ((double)(next() % 1000000000) + 0.5) / 1e6;
+    return i % 3 == 0 ? half : nextafter(half, i % 3 == 1 ? 0 : 1e9);
+}
+static double large_half(int i) { return 9e8 + (double)(next() % 1000000) + ((double)(i % 1000) + 0.5) / 1e6; }
+static double written(int i) { return (double)i / 1e6; }
+
+static void test_snap(void) {
+    OK(count_bad(metres, 200000) == 0, "mesh_snap is %%.6f and strtod on metres");
+    OK(count_bad(any_size, 200000) == 0, "on any size up to 1e9");
+    OK(count_bad(tiny, 5000) == 0, "on the smallest");
+    OK(count_bad(tie, 100000) == 0, "on exact halves, which go to the even millionth");
+    OK(count_bad(near_half, 200000) == 0, "on halves that doubles just miss");
+    OK(count_bad(large_half, 100000) == 0, "and large ones");
+    OK(count_bad(written, 200000) == 0, "what was written stays as it is");
+    OK(mesh_snap(1 / 128.0) == 0.007812, "0.0078125 is 0.007812");
+    OK(mesh_snap(3 / 128.0) == 0.023438, "0.0234375 is 0.023438");
+    OK(!signbit(mesh_snap(-0.0000001)) && !signbit(mesh_snap(-0.0)), "never -0");
+}
+
+static bool same_edges(const Mesh *m, const Edge *wanted, int n) {
+    return m->nedges == n && memcmp(m->edge, wanted, (size_t)n * sizeof *wanted) == 0;
+}
+
+static void test_edges(void) {
+    Arena arena = {0};
+    Error e = {0};
+    Triangle pair[] = {{{2, 0, 1}}, {{3, 2, 1}}, {{1, 1, 3}}, {{4, 4, 4}}};
+    Mesh m = {.nvertices = 5, .ntriangles = 4, .triangle = pair};
+    Edge wanted[] = {{{0, 2}}, {{0, 1}}, {{1, 2}}, {{2, 3}}, {{1, 3}}};
+    OK(mesh_find_edges(&m, &arena, &e) && same_edges(&m, wanted, 5),
+       "each edge once, lower end first, in order of first appearance; collapsed sides are none");
+
+    Mesh empty = {0};
+    OK(mesh_find_edges(&empty, &arena, &e) && empty.nedges == 0, "no triangles, no edges");
+
+    enum { N = 40 }; /* a grid that is closed both ways: V - E + F = 0 */
+    Triangle *t = ARENA_NEW(&arena, Triangle, 2 * N * N, &e);
+    Mesh torus = {.nvertices = N * N, .ntriangles = 2 * N * N, .triangle = t};
+    for (int i = 0; i < N * N; i++) {
+        int a = i, b = i / N * N + (i + 1) % N, c = (a + N) % (N * N), d = (b + N) % (N * N);
+        t[2 * i] = (Triangle){{a, b, d}};
+        t[2 * i + 1] = (Triangle){{d, c, a}};
+    }
+    bool good = mesh_find_edges(&torus, &arena, &e);
+    int twice = 0;
+    for (int i = 0; good && i < torus.nedges; i++)
+        for (int j = 0; j < i; j++) twice += memcmp(&torus.edge[i], &torus.edge[j], sizeof(Edge)) == 0;
+    OK(good && torus.nedges == 3 * N * N && twice == 0, "a torus of %d triangles has %d edges", 2 * N * N, 3 * N * N);
+
+    arena.fail_after = 2;
+    OK(!mesh_find_edges(&torus, &arena, &e) && e.kind == ERR_INTERNAL, "no memory is an error, not a crash");
+    arena_free(&arena);
+}
+
+int main(void) {
+    test_snap();
+    test_edges();
+    return tap_done();
+}
