@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "motion/motion.h"
+#include "session.h"
 #include "tap.h"
 
 typedef struct {
@@ -43,56 +44,39 @@ static const Known known[] = {
     {"cmu_11_01_kick.amc", 31, 7, 62, 597, 1.0 / 120, false},
 };
 
-typedef struct {
-    Arena arena;
-    Notes notes;
-    Motion motion;
-    MotionReader *reader;
-    Error e;
-    double *row;
-    Rigid *world;
-} Session;
-
 static const char *folder;
 
-static bool session_open(Session *s, const char *file) {
-    char path[1024];
-    memset(s, 0, sizeof *s);
-    snprintf(path, sizeof path, "%s/%s", folder, file);
-    const char *kept = arena_text(&s->arena, path, strlen(path), &s->e);
-    if (!kept || !motion_open(kept, &(MotionOptions){0}, &s->arena, &s->notes, &s->motion, &s->e)) return false;
-    s->row = ARENA_NEW(&s->arena, double, s->motion.skeleton.nchannels, &s->e);
-    s->world = ARENA_NEW(&s->arena, Rigid, s->motion.skeleton.njoints, &s->e);
-    return s->row && s->world && motion_reader_open(&s->motion, &s->arena, &s->reader, &s->e);
-}
+static Session session, other;
 
-static void session_close(Session *s) {
-    motion_reader_close(s->reader);
-    motion_close(&s->motion);
-    arena_free(&s->arena);
+/* The path is good as long as the program runs. */
+static bool open_shared(Session *s, const char *file) {
+    static char path[2][1024];
+    char *p = path[s == &other];
+    snprintf(p, sizeof path[0], "%s/%s", folder, file);
+    return session_open(s, p, (MotionOptions){0});
 }
 
 static bool poses_are_finite(Session *s) {
     for (int f = 0; f < s->motion.nframes; f++) {
-        if (!motion_row(s->reader, f, s->row, &s->e)) return false;
-        skeleton_pose(&s->motion.skeleton, s->row, s->world);
+        if (!session_pose(s, f)) return false;
         for (int i = 0; i < s->motion.skeleton.njoints; i++)
             if (!vec_finite(s->world[i].t)) return false;
     }
     return true;
 }
 
-static Session session, other; /* large: they hold notes */
-
 static void test_known(const Known *k) {
     Session *s = &session;
-    bool good = session_open(s, k->file);
+    bool good = open_shared(s, k->file);
     const Skeleton *a = &s->motion.skeleton;
     int ends = 0;
     for (int i = 0; i < a->njoints && good; i++) ends += a->joint[i].is_end;
-    if (good && !(a->njoints - ends == k->joints && ends == k->ends && a->nchannels == k->channels && s->motion.nframes == k->frames))
-        good = printf("# %d joints, %d ends, %d channels, %d frames\n", a->njoints - ends, ends, a->nchannels, s->motion.nframes) < 0;
-    good = good && s->motion.frame_time == k->frame_time && a->position_adds == k->adds && s->notes.count == 0 && poses_are_finite(s);
+    if (good && !(a->njoints - ends == k->joints && ends == k->ends && a->nchannels == k->channels &&
+                  s->motion.nframes == k->frames))
+        good = printf("# %d joints, %d ends, %d channels, %d frames\n", a->njoints - ends, ends, a->nchannels,
+                      s->motion.nframes) < 0;
+    good = good && s->motion.frame_time == k->frame_time && a->position_adds == k->adds && s->notes.count == 0 &&
+        poses_are_finite(s);
     OK(good, "%s %s", k->file, s->e.text);
     session_close(s);
 }
@@ -100,12 +84,10 @@ static void test_known(const Known *k) {
 /* The same take as BVH and as AMC; the BVH has a T-pose in front. Root angles agree to the
    digits that the BVH has. */
 static void test_pair(void) {
-    bool good = session_open(&session, "cmu_daz_02_03_run.bvh") && session_open(&other, "cmu_02_03_run.amc");
+    bool good = open_shared(&session, "cmu_daz_02_03_run.bvh") && open_shared(&other, "cmu_02_03_run.amc");
     double most = good ? 0 : 1e9;
     for (int f = 0; f < other.motion.nframes && good; f++) {
-        good = motion_row(session.reader, f + 1, session.row, &session.e) && motion_row(other.reader, f, other.row, &other.e);
-        skeleton_pose(&session.motion.skeleton, session.row, session.world);
-        skeleton_pose(&other.motion.skeleton, other.row, other.world);
+        good = session_pose(&session, f + 1) && session_pose(&other, f);
         for (int i = 0; i < 3; i++) most = fmax(most, vec_dist(session.world[0].r.r[i], other.world[0].r.r[i]));
     }
     NEAR(most, 0, 2e-6, "run.bvh and run.amc turn their root the same way");
@@ -120,11 +102,10 @@ static void test_stance(void) {
     double speed[MOST] = {0}, slow = 1e9;
     Vec3 before = {0};
     int n = 0;
-    bool good = session_open(&session, "cmu_02_03_run.amc");
+    bool good = open_shared(&session, "cmu_02_03_run.amc");
     int toe = good ? skeleton_find(&session.motion.skeleton, "rtoes_End") : 0;
     for (int f = 0; good && f < session.motion.nframes && f < MOST; f++) {
-        good = motion_row(session.reader, f, session.row, &session.e);
-        skeleton_pose(&session.motion.skeleton, session.row, session.world);
+        good = session_pose(&session, f);
         if (f) speed[n++] = vec_dist(session.world[toe].t, before) * session.motion.file_unit * 120;
         before = session.world[toe].t;
     }

@@ -23,7 +23,8 @@ static Mat3 about(ChannelKind kind, double degrees) {
 }
 
 static Joint joint(const char *name, int parent, Vec3 offset, int n, const ChannelKind *channel, int first) {
-    Joint j = {.name = name, .parent = parent, .offset = offset, .axis = mat_identity(), .nchannels = n, .first_channel = first};
+    Joint j = {.name = name, .parent = parent, .offset = offset, .axis = mat_identity(), .nchannels = n,
+               .first_channel = first};
     for (int i = 0; i < n; i++) j.channel[i] = channel[i];
     return j;
 }
@@ -42,7 +43,8 @@ static void test_orders(void) {
         ChannelKind c[3] = {CHANNEL_RX + code / 9, CHANNEL_RX + code / 3 % 3, CHANNEL_RX + code % 3};
         Mat3 wanted = mat_mul(about(c[0], row[0]), mat_mul(about(c[1], row[1]), about(c[2], row[2])));
         Mat3 got = pose_one(joint("a", -1, vec(0, 0, 0), 3, c, 0), row, false).r;
-        NEAR(worst(got, wanted), 0, 1e-15, ((char[]){"XYZ"[c[0] - CHANNEL_RX], "XYZ"[c[1] - CHANNEL_RX], "XYZ"[c[2] - CHANNEL_RX], 0}));
+        const char name[] = {"XYZ"[c[0] - CHANNEL_RX], "XYZ"[c[1] - CHANNEL_RX], "XYZ"[c[2] - CHANNEL_RX], 0};
+        NEAR(worst(got, wanted), 0, 1e-15, name);
     }
 }
 
@@ -65,9 +67,11 @@ static void test_positions(void) {
     static const ChannelKind all[] = {CHANNEL_TZ, CHANNEL_RY, CHANNEL_TX, CHANNEL_TY}, height[] = {CHANNEL_TY};
     const double row[4] = {30, 90, 10, 20}, five[1] = {5};
     Vec3 offset = vec(1, 2, 3);
-    NEAR(vec_dist(pose_one(joint("a", -1, offset, 4, all, 0), row, false).t, vec(10, 20, 30)), 0, 0, "positions replace, in any order");
+    NEAR(vec_dist(pose_one(joint("a", -1, offset, 4, all, 0), row, false).t, vec(10, 20, 30)), 0, 0,
+         "positions replace, in any order");
     NEAR(vec_dist(pose_one(joint("a", -1, offset, 4, all, 0), row, true).t, vec(11, 22, 33)), 0, 0, "positions add");
-    NEAR(vec_dist(pose_one(joint("a", -1, offset, 1, height, 0), five, false).t, vec(1, 5, 3)), 0, 0, "one of them replaces one");
+    NEAR(vec_dist(pose_one(joint("a", -1, offset, 1, height, 0), five, false).t, vec(1, 5, 3)), 0, 0,
+         "one of them replaces one");
     NEAR(vec_dist(pose_one(joint("a", -1, offset, 0, NULL, 0), NULL, false).t, offset), 0, 0, "none leaves the OFFSET");
 }
 

@@ -24,7 +24,7 @@ static inline Vec3 sample_point(const Sample *s, int i, int joint) { return s->w
 double sample_distance(const Sample *s, int a, int b);
 
 /* The frames with the largest scores (one for each frame), best first: a quarter of all, at
-   least three where there are three. Returns their number. */
+   least one. Returns their number. */
 int sample_best(const Sample *s, const double *score, int out[SAMPLE_BEST_MAX]);
 
 /* The same for the frames in which two joints are lowest. upright: file axes -> Y up. */

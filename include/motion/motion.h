@@ -20,7 +20,7 @@ typedef struct {
 typedef struct MotionSource MotionSource; /* the open file and an index of its frames */
 
 typedef struct {
-    const char *path, *format;  /* "BVH" or "ASF/AMC" */
+    const char *path, *format;  /* path as given, not copied; "BVH" or "ASF/AMC" */
     Skeleton skeleton;
     int nframes;                /* complete frames, at least 1 */
     double frame_time;          /* seconds, > 0 */

@@ -278,7 +278,7 @@ bool figure_measure(const Motion *m, const FigureOptions *options, const Sample 
         sane(l.shin * u, adult.shin * k, 0.5, 1.6),
         clamp(ankle, 0.5 * adult.ankle * k, 1.6 * adult.ankle * k),
         sane(l.torso * u, adult.torso * k, 0.5, 1.6),
-        clamp(l.shoulders * u, 0.77 * adult.shoulders * k, 1.5 * adult.shoulders * k),
+        clamp(l.shoulders * u, 0.8 * adult.shoulders * k, 1.5 * adult.shoulders * k),
         sane(l.upper_arm * u, adult.upper_arm * k, 0.5, 1.6),
         sane(l.forearm * u, adult.forearm * k, 0.5, 1.6),
         sane(l.hand * u, adult.hand * k, 0.75, 1.25),

@@ -42,7 +42,7 @@ double sample_distance(const Sample *s, int a, int b) {
 }
 
 int sample_best(const Sample *s, const double *score, int out[SAMPLE_BEST_MAX]) {
-    int count = 0, few = s->count < 3 ? s->count : 3, most = s->count / 4 > few ? s->count / 4 : few;
+    int count = 0, most = s->count / 4 < 1 ? 1 : s->count / 4;
     for (int i = 0; i < s->count; i++) {
         int k = count;
         if (k < most) count++;

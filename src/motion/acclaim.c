@@ -53,7 +53,7 @@ static FrameResult read_bone(Stream *s, const MotionSource *source, int frame, d
         bool there = stream_blanks(s) && *s->at != '#';
         if (stream_ended(s)) return FRAME_CUT;
         if (!there) {
-            stream_error(s, e, "frame %d: %d values for bone '%.60s' of %d degrees of freedom", frame, i, b->name, b->ndof);
+            stream_error(s, e, "frame %d: %d values for the %d of bone '%.60s'", frame, i, b->ndof, b->name);
             return FRAME_WRONG;
         }
         NumberResult r = stream_number(s, &v);
@@ -139,7 +139,8 @@ static bool scan_frames(Opening *o, Error *e) {
             stream_note(s, o->notes, "the file ends within frame %d, which is left out", number);
             return true;
         }
-        if (source->nframes == o->max_frames) return stream_error(s, e, "more than the limit of %d frames", o->max_frames);
+        if (source->nframes == o->max_frames)
+            return stream_error(s, e, "more than the limit of %d frames", o->max_frames);
         if (source->nframes && number != previous + 1 && !gap_told) {
             gap_told = true;
             Mark here = stream_mark(s);

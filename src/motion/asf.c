@@ -377,13 +377,15 @@ static void consider(Search *found, const char *file, const char *name, size_t l
 
 bool asf_find(Opening *o, const char **path, Error *e) {
     const char *amc = o->motion->path, *slash = strrchr(amc, '/'), *name = slash ? slash + 1 : amc;
-    if (strcmp(amc, "-") == 0) return error_set(e, ERR_INPUT, "an AMC motion on standard input needs its skeleton: give --asf");
+    if (strcmp(amc, "-") == 0)
+        return error_set(e, ERR_INPUT, "an AMC motion on standard input needs its skeleton: give --asf");
     const char *dot = strrchr(name, '.');
     size_t length = dot ? (size_t)(dot - name) : strlen(name), folder = (size_t)(name - amc);
     const char *where = folder ? arena_text(o->arena, amc, folder, e) : ".";
     if (!where) return false;
     DIR *dir = opendir(where);
-    if (!dir) return error_set(e, ERR_INPUT, "cannot list '%s' for the skeleton of '%s': %s", where, amc, strerror(errno));
+    if (!dir)
+        return error_set(e, ERR_INPUT, "cannot list '%s' for the skeleton of '%s': %s", where, amc, strerror(errno));
     Search found = {.count = 0};
     for (struct dirent *entry; (entry = readdir(dir));) consider(&found, entry->d_name, name, length);
     closedir(dir);

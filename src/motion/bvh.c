@@ -134,7 +134,8 @@ static bool read_channels(Head *h, Error *e) {
     if (r > NUMBER_GLUED) return stream_refuse(s, r, "the number of CHANNELS", e);
     int most = j->is_end ? 0 : 6;
     if (!(count >= 0 && count <= most) || count != (int)count)
-        return stream_error(s, e, "%.0f CHANNELS: %s", count, j->is_end ? "an End Site has none" : "a joint has 0 to 6");
+        return stream_error(s, e, "%.0f CHANNELS: %s", count,
+                            j->is_end ? "an End Site has none" : "a joint has 0 to 6");
     for (; j->nchannels < (int)count; j->nchannels++) {
         Word w = stream_peek(s);
         int kind = 0;
@@ -190,7 +191,8 @@ static bool read_item(Head *h, Error *e) {
         if (!word_is(w, items[i].word)) continue;
         bool at_end = h->open >= 0 && h->joint[h->open].is_end;
         if ((items[i].inside && h->open < 0) || (at_end && !items[i].in_end))
-            return stream_error(s, e, "%s cannot stand %s", items[i].word, at_end ? "in an End Site" : "outside of a ROOT");
+            return stream_error(s, e, "%s cannot stand %s", items[i].word,
+                                at_end ? "in an End Site" : "outside of a ROOT");
         if (items[i].read == read_root && h->njoints) return read_root(h, e);
         s->at += w.length;
         return items[i].read(h, e);
@@ -236,7 +238,8 @@ static bool read_frame_count(Opening *o, int *frames, Error *e) {
     NumberResult r = stream_number(s, &count);
     if (r > NUMBER_GLUED) return stream_refuse(s, r, "the number of frames", e);
     stream_seek(s, start);
-    if (count > o->max_frames) return stream_error(s, e, "%.0f frames are more than the limit of %d", count, o->max_frames);
+    if (count > o->max_frames)
+        return stream_error(s, e, "%.0f frames are more than the limit of %d", count, o->max_frames);
     if (count < 1) return stream_error(s, e, "the motion has no frames");
     if (count != (int)count) return stream_error(s, e, "%g is no whole number of frames", count);
     *frames = (int)count;
@@ -367,7 +370,7 @@ static bool check_lines(Scan *c, bool more, Error *e) {
     }
     if (k == n || l->odd_values) return true;
     bool wrapped = k < n && n % k == 0 && l->lines > c->announced;
-    bool several = k > n && k % n == 0 && l->lines < c->announced && !more;
+    bool several = k > n && k % n == 0 && !more;
     if (wrapped || several) return true;
     stream_seek(s, c->first);
     return stream_error(s, e, "lines of %d values for %d channels: head and motion are of different skeletons", k, n);
@@ -376,9 +379,10 @@ static bool check_lines(Scan *c, bool more, Error *e) {
 static void note_rest(Scan *c, bool more) {
     Stream *s = &c->o->in;
     Notes *notes = c->o->notes;
-    if (c->cut) stream_note(s, notes, "the file ends within frame %d of %d, which is left out", c->frame + 1, c->announced);
-    else if (c->frame < c->announced) stream_note(s, notes, "%d frames announced, but %d found", c->announced, c->frame);
-    else if (more) stream_note(s, notes, "values behind the %d announced frames, left out", c->announced);
+    int found = c->frame, announced = c->announced;
+    if (c->cut) stream_note(s, notes, "the file ends within frame %d of %d, which is left out", found + 1, announced);
+    else if (found < announced) stream_note(s, notes, "%d frames announced, but %d found", announced, found);
+    else if (more) stream_note(s, notes, "values behind the %d announced frames, left out", announced);
     else if (!stream_ended(s)) stream_note(s, notes, "text behind the frames, left out");
 }
 

@@ -175,7 +175,8 @@ bool motion_open(const char *path, const MotionOptions *options, Arena *arena, N
     out->source = source;
     if (!(source->mark = ARENA_NEW(arena, Mark, MARKS_MAX, e))) return false;
     Arena scratch = {.limit = arena->limit};
-    Opening o = {.options = options, .arena = arena, .scratch = &scratch, .notes = notes, .motion = out, .source = source};
+    Opening o = {.options = options, .arena = arena, .scratch = &scratch, .notes = notes, .motion = out,
+                 .source = source};
     o.max_joints = options->max_joints > 0 ? options->max_joints : JOINTS_DEFAULT;
     o.max_frames = options->max_frames > 0 ? options->max_frames : FRAMES_DEFAULT;
     bool good = source_file(path, &source->fd, e) && stream_open(&o.in, source->fd, source->name, &scratch, e) &&

@@ -1,7 +1,8 @@
 /* Do position channels replace the OFFSET or add to it? Both occur and no file says which.
    If they replace it, a joint's values lie round its OFFSET; if they add, round zero. Each
    coordinate is a witness, the more trusted the less it varies: while somebody walks away
-   along x and z, the height of the hips still tells. */
+   along x and z, the height of the hips still tells. To replace is the custom, so adding must
+   fit twice as well: who sits is below the OFFSET's height in either case. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -71,5 +72,5 @@ bool positions_are_deltas(Positions *p) {
         replace += fmin(fabs(median - w->offset) / spread, 10);
         add += fmin(fabs(median) / spread, 10);
     }
-    return add < replace;
+    return 2 * add < replace;
 }
