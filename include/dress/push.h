@@ -9,7 +9,7 @@ typedef struct {
     int vertex, n;
     unsigned near;                    /* parts (bit 1 << part) worth asking */
     int id[4 * LATTICE_LEVELS];       /* into Push.displacement */
-    double weight[4 * LATTICE_LEVELS], norm2;
+    double weight[4 * LATTICE_LEVELS], share[4 * LATTICE_LEVELS], norm2; /* share: weight x mobility */
     double spent, budget;             /* push issued in this frame, and its limit; metres */
     Vec3 seen;                        /* where it was when its distances were last taken, */
     double slack;                     /* and how far it may go from there before that matters */

@@ -3,8 +3,9 @@
    (Kaczmarz, POCS) needs no step size, so 30 and 120 frames a second give the same shape.
 
    The unknowns are the displacements of level vertices, coarse and fine together: a projection
-   moves all that reach the sample, in proportion to their weights, by the least change. What that
-   cannot settle (pinned borders, a chord across a bulge) is left to offsets of single vertices. */
+   moves all that reach the sample, in proportion to their weights, by the least change; pinned ones
+   give way last. What that cannot settle (a chord across a bulge) is left to offsets of single
+   vertices. */
 #include "dress/push.h"
 
 #include <string.h>
@@ -16,7 +17,8 @@ static const double SLACK = 0.1;        /* share of the clearance that may be mi
 static const double LIPSCHITZ = 0.8;    /* distances are of first order: trust this share of a slack */
 static const double FADE = 0.8;         /* of the carried displacement, in 1/30 s */
 static const double FELT = 0.0002;      /* a carried displacement below this is dropped */
-static const double NORM_MIN = 0.02;    /* a sample that level vertices hardly move is left to offsets */
+static const double PIN_GIVES = 0.2;    /* a pinned level vertex moves this share of what a free one would */
+static const double NORM_MIN = 0.1;     /* a sample that level vertices hardly move must not fling them */
 static const double BUDGET = 0.02;      /* a sample may issue twice its first violation and this */
 static const double RAISE_MAX = 0.02;   /* most extra clearance */
 static const double OFFSET_MAX = 0.03;  /* of a single vertex: more would be a spike */
@@ -60,7 +62,7 @@ void push_carry(Push *p, const BodyFrame *body, double dt, bool restart, Leaves 
     p->pelvis = pelvis;
 }
 
-/* A level vertex may move where all cells round it are split to its level and no pin holds it. */
+/* A level vertex may move where all cells round it are split to its level. */
 static void find_active(Push *p, const Leaves *leaves) {
     const Lattice *l = p->lattice;
     int cells = 1 << l->depth;
@@ -68,7 +70,7 @@ static void find_active(Push *p, const Leaves *leaves) {
         const LatticeLevel *at = &l->level[level];
         int size = 1 << (l->depth - level);
         for (int v = 0; v < at->count; v++) {
-            bool all = !at->pinned[v];
+            bool all = true;
             for (int k = at->first_cell[v]; all && k < at->first_cell[v + 1]; k++) {
                 LatticeCell c = at->cell[k];
                 all = leaves->level[(c.patch * cells + c.a * size) * cells + c.b * size] >= level;
@@ -160,9 +162,11 @@ static void add_sample(Push *p, const Sheet *sheet, int vertex, unsigned near) {
         for (int k = 0; k < 4; k++) {
             int unknown = p->start[level] + id[k];
             if (weight[k] <= 0 || !p->active[unknown]) continue;
+            double gives = l->level[level].pinned[id[k]] ? PIN_GIVES : 1;
             s->id[s->n] = unknown;
-            s->weight[s->n++] = weight[k];
-            s->norm2 += weight[k] * weight[k];
+            s->weight[s->n] = weight[k];
+            s->share[s->n++] = gives * weight[k];
+            s->norm2 += gives * weight[k] * weight[k];
         }
     }
 }
@@ -185,15 +189,11 @@ static Vec3 limit(Vec3 d, double cap, bool *capped) {
 }
 
 /* Moves a sample by `depth` along n with the least change of the unknowns. */
-static void project(Push *p, PushSample *s, const Sheet *sheet, Vec3 n, double depth, PushResult *result) {
-    if (s->norm2 > NORM_MIN) {
-        for (int k = 0; k < s->n; k++) {
-            Vec3 *d = &p->displacement[s->id[k]];
-            *d = limit(vec_mad(*d, n, depth * s->weight[k] / s->norm2), p->cap, &result->capped);
-        }
-    } else {
-        Vec3 *o = &p->offset[sheet->place[s->vertex]];
-        *o = limit(vec_mad(*o, n, depth), OFFSET_MAX * p->scale, &result->capped);
+static void project(Push *p, const PushSample *s, Vec3 n, double depth, PushResult *result) {
+    double step = depth / fmax(s->norm2, NORM_MIN);
+    for (int k = 0; k < s->n; k++) {
+        Vec3 *d = &p->displacement[s->id[k]];
+        *d = limit(vec_mad(*d, n, step * s->share[k]), p->cap, &result->capped);
     }
 }
 
@@ -214,7 +214,7 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
         if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->scale;
         if (s->spent > s->budget) continue; /* pinched: it has had its say */
         s->spent += depth;
-        project(p, s, sheet, n, depth, result);
+        project(p, s, n, depth, result);
         x = sample_point(p, sheet, s);
         most = fmax(most, depth);
     }
