@@ -66,9 +66,11 @@ sed 's/CHANNELS 3 Xrotation/CHANNELS 3 Wrotation/' good.bvh >x.bvh; motion 'an u
 sed 's/OFFSET/OFSET/' good.bvh >x.bvh; motion 'an unknown word' "x.bvh:4:2: error: .*found 'OFSET'"
 sed '4s/OFFSET.*/OFFSET 0 zero 0/' good.bvh >x.bvh; motion 'a word for a number' "x.bvh:4:11: error: .*found 'zero'"
 sed '4s/OFFSET.*/OFFSET 0 1e300 0/' good.bvh >x.bvh; motion 'an offset beyond all bounds' '^(x.bvh:4:|kitsuke: )'
-awk 'BEGIN { print "HIERARCHY\nROOT a"; for (i = 0; i < 10000; i++) print "{\nOFFSET 0 1 0\nCHANNELS 0\nJOINT j" i }' >x.bvh
+awk 'BEGIN { print "HIERARCHY\nROOT a"
+             for (i = 0; i < 10000; i++) print "{\nOFFSET 0 1 0\nCHANNELS 0\nJOINT j" i }' >x.bvh
 motion 'joints nested 10,000 deep' '^x.bvh:[0-9]+:[0-9]+: error: .*nested'
-awk 'BEGIN { print "HIERARCHY\nROOT a\n{\nOFFSET 0 1 0\nCHANNELS 0"; for (i = 0; i < 20000; i++) print "JOINT j" i "\n{\nOFFSET 0 1 0\n}" }' >x.bvh
+awk 'BEGIN { print "HIERARCHY\nROOT a\n{\nOFFSET 0 1 0\nCHANNELS 0"
+             for (i = 0; i < 20000; i++) print "JOINT j" i "\n{\nOFFSET 0 1 0\n}" }' >x.bvh
 motion '20,000 joints' '^x.bvh:[0-9]+:[0-9]+: error: .*joints'
 awk "NR >= $frame1 { NF = int(NF / 2) } { print }" good.bvh >x.bvh
 motion 'rows of half the length' 'head and motion are of different skeletons'
@@ -96,18 +98,26 @@ refused 'garment: missing' "cannot open 'nowhere.garment'" good.bvh -g nowhere.g
 refused 'garment: a folder' "'empty': it is a directory" good.bvh -g empty
 : >x.garment; garment empty 'x.garment'
 head -c 3000 "$KITSUKE" >x.garment; garment 'a binary file' 'binary'
-sed 's/left_thigh/left_thigth/' "$skirt" >x.garment; garment 'an unknown bone' "^x.garment:[0-9]+:[0-9]+: error: .*left_thigth"
-sed 's/^garment .*/garment body/' "$skirt" >x.garment; garment 'called body' '^x.garment:[0-9]+:[0-9]+: error: '
-sed 's/^garment .*/garment ..\/..\/x/' "$skirt" >x.garment; garment 'a name that leads out' '^x.garment:[0-9]+:[0-9]+: error: '
-sed 's/^ring hip .*/ring hip pelvis 0.4 ease nan/' "$skirt" >x.garment; garment 'nan' "^x.garment:[0-9]+:[0-9]+: error: .*number"
-sed 's/^ring hip .*/ring hip pelvis 0.4 ease 1e9/' "$skirt" >x.garment; garment 'a huge number' "^x.garment:[0-9]+:[0-9]+: error: "
-sed 's/^seam front.end/seam front.up/' "$skirt" >x.garment; garment 'an unknown side' '^x.garment:[0-9]+:[0-9]+: error: '
-sed 's/^seam front.end back.start/seam front.end back.end/' "$skirt" >x.garment; garment 'a seam that does not meet' '^x.garment:[0-9]+:[0-9]+: error: '
-sed 's/  row knee  left front right/  row knee  left front left/' "$skirt" >x.garment; garment 'a row that goes nowhere' '^x.garment:[0-9]+:[0-9]+: error: '
-{ printf 'garment rag\nfollow bones\nfit loose\npatch rag\n'; for i in 1 2 3 4; do for j in 1 2 3 4; do echo '  0 1 0.2 pelvis 1'; done; done; } >x.garment
-garment 'a degenerate patch' '^x.garment:[0-9]+:[0-9]+: error: '
+place='^x.garment:[0-9]+:[0-9]+: error: '
+spoilt() { # spoilt DESCRIPTION PATTERN SED: the skirt with a change
+    sed "$3" "$skirt" >x.garment
+    garment "$1" "$place.*$2"
+}
+spoilt 'an unknown bone' left_thigth 's/left_thigh/left_thigth/'
+spoilt 'called body' body 's/^garment .*/garment body/'
+spoilt 'a name that leads out' '' 's/^garment .*/garment ..\/..\/x/'
+spoilt 'nan' number 's/^ring hip .*/ring hip pelvis 0.4 ease nan/'
+spoilt 'a huge number' '' 's/^ring hip .*/ring hip pelvis 0.4 ease 1e9/'
+spoilt 'an unknown side' up 's/^seam front.end/seam front.up/'
+spoilt 'a seam that does not meet' '' 's/^seam front.end back.start/seam front.end back.end/'
+spoilt 'a row that goes nowhere' '' 's/  row knee  left front right/  row knee  left front left/'
+{
+    printf 'garment rag\nfollow bones\nfit loose\npatch rag\n'
+    awk 'BEGIN { for (i = 0; i < 16; i++) print "  0 1 0.2 pelvis 1" }'
+} >x.garment
+garment 'a degenerate patch' "$place"
 awk 'BEGIN { print "garment x"; for (i = 0; i < 30000; i++) print "ring r" i " pelvis 1 ease 0" }' >x.garment
-garment '30,000 rings' '^x.garment:[0-9]+:[0-9]+: error: '
+garment '30,000 rings' "$place"
 
 refused 'body: missing' "cannot open 'nowhere.body'" good.bvh -g "$skirt" --body nowhere.body
 : >x.body; body empty 'x.body'

@@ -26,7 +26,8 @@ is '-h is --help' "$("$KITSUKE" -h)" "$("$KITSUKE" --help)"
 for command in $commands; do
     "$KITSUKE" "$command" --help >help.$command 2>err
     is "$command --help: exit 0" $? 0
-    like "$command --help: an example that can be typed" "$(sed -n '/^Example/,/^$/p' help.$command)" "^  kitsuke $command "
+    like "$command --help: an example that can be typed" "$(sed -n '/^Example/,/^$/p' help.$command)" \
+        "^  kitsuke $command "
     is "$command --help: no line over 80 columns" "$(awk 'length > 80' help.$command)" ''
     is "$command --help: nothing on stderr" "$(cat err)" ''
     is "$command -h" "$("$KITSUKE" $command -h)" "$(cat help.$command)"
@@ -66,14 +67,16 @@ ok 'every number outside its range, as the help tells it, is refused' ranges
 
 files() {
     for option in roles body garment; do
-        must_fail 3 "$KITSUKE" dress "$walk" -g "$skirt" -o o --frames 1:1 "--$option" nowhere && says "nowhere" || return 1
+        refuses 3 nowhere dress "$walk" -g "$skirt" -o o --frames 1:1 "--$option" nowhere || return 1
         [ ! -e o/paper-walk ] || return 1
     done
 }
 ok 'every option that names a file says when there is none: exit 3' files
 
-ok 'an unknown option, with the nearest one' refuses 2 "unknown option '--detial'; did you mean '--detail'" dress --detial 3
-ok 'the beginning of an option is suggested, not taken' refuses 2 "did you mean '--draco-position-bits'" dress --draco-pos 3
+ok 'an unknown option, with the nearest one' \
+    refuses 2 "unknown option '--detial'; did you mean '--detail'" dress --detial 3
+ok 'the beginning of an option is suggested, not taken' \
+    refuses 2 "did you mean '--draco-position-bits'" dress --draco-pos 3
 ok 'an unknown letter' refuses 2 "unknown option '-z' in '-qz'" dress -qz
 ok 'an option of another command' refuses 2 "'inspect' has no option '--garment'" inspect --garment x
 ok 'an unknown command, with the nearest one' refuses 2 "did you mean 'dress'" drees
@@ -114,7 +117,8 @@ ok 'and the body is there again' test -f h/paper-walk/body.0001.obj
 ok 'nothing was written to the folder that lost' test ! -e nowhere
 cp "$walk" ./-x.bvh
 ok 'an operand that begins with a dash' "$KITSUKE" inspect -- -x.bvh
-ok '- is standard input' sh -c '"$KITSUKE" dress - -g "$1" -o i --frames 1:1 -q <"$2" && test -f i/stdin/skirt.0001.obj' sh "$skirt" "$walk"
+from_pipe() { "$KITSUKE" dress - -g "$skirt" -o i --frames 1:1 -q <"$walk" && [ -f i/stdin/skirt.0001.obj ]; }
+ok '- is standard input' from_pipe
 
 "$KITSUKE" inspect "$walk" >out 2>err
 is 'inspect says nothing on stderr' "$(cat err)" ''
@@ -140,5 +144,6 @@ if [ -w /dev/full ]; then
 else
     skip 'standard output on a full disk' 'no /dev/full'
 fi
-ok 'a reader that goes away ends it quietly' sh -c '"$KITSUKE" inspect --joints "$1" 2>err | head -n 1 >out; ! test -s err' sh "$walk"
+gone() { "$KITSUKE" inspect --joints "$walk" 2>err | head -n 1 >out && [ ! -s err ]; }
+ok 'a reader that goes away ends it quietly' gone
 done_testing

@@ -15,7 +15,9 @@ typedef struct {
 } Wardrobe;
 
 /* Where the time goes. OTHER is what is left of the whole. */
-typedef enum { STAGE_OPEN, STAGE_POSE, STAGE_GLOBAL, STAGE_TEST, STAGE_PUSH, STAGE_MESH, STAGE_WRITE, STAGE_OTHER, STAGE_COUNT } Stage;
+typedef enum {
+    STAGE_OPEN, STAGE_POSE, STAGE_GLOBAL, STAGE_TEST, STAGE_PUSH, STAGE_MESH, STAGE_WRITE, STAGE_OTHER, STAGE_COUNT
+} Stage;
 
 typedef struct {
     Error error;             /* kind 0: dressed, every file is written */
@@ -38,7 +40,7 @@ typedef struct { void (*frame)(void *context, int done, int total); void *contex
    the arena. Looks at stop_requested after each frame (ERR_INTERRUPTED). With --strict ERR_CHECK
    where something shows through. `about`, if not NULL, gets what --verbose prints. `out` must be
    zero but for `row`. */
-void job_run(const Wardrobe *wardrobe, const Input *input, const JobWatch *watch, JobMemory *memory, Notes *notes, FILE *about,
-             JobResult *out);
+void job_run(const Wardrobe *wardrobe, const Input *input, const JobWatch *watch, JobMemory *memory, Notes *notes,
+             FILE *about, JobResult *out);
 
 #endif

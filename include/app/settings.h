@@ -73,10 +73,10 @@ typedef struct {
     OptionKind kind;
     size_t field;          /* offset in Settings */
     const char *argument;  /* what the help calls the value; NULL for flags */
-    const char *help;
-    const char *fallback;  /* the default, in words; NULL: nothing to say */
     const char *group;     /* heading in the help */
     unsigned commands;     /* CommandBit set */
+    const char *help;
+    const char *fallback;  /* the default, in words; NULL: nothing to say */
     double low, high;      /* range of a number, both included */
     int step;              /* KIND_INT: multiples of this; 0 = 1 */
     int bias;              /* KIND_INT: added before it is stored, so that 0 can mean default */

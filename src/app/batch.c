@@ -110,7 +110,8 @@ static void run_item(void *context, int i, int worker) {
                   b->wardrobe->settings->output, b->input[i].name);
     else dress(b, w, i, said);
     if (said) {
-        if (item->result.error.kind && item->result.error.kind != ERR_INTERRUPTED) error_print(&item->result.error, said);
+        ErrorKind kind = item->result.error.kind;
+        if (kind && kind != ERR_INTERRUPTED) error_print(&item->result.error, said);
         fclose(said);
     }
     arena_reset(&w->memory.arena);
@@ -132,17 +133,28 @@ static double look_at_folders(Batch *b) {
     return weight;
 }
 
+/* Why a motion was not dressed, with its place; empty where it was. */
+static void give_reason(const Error *why, char *reason, size_t n) {
+    reason[0] = 0;
+    if (why->kind <= ERR_CHECK) return;
+    if (why->line) snprintf(reason, n, "%s:%d:%d: %s", why->file, why->line, why->column, why->text);
+    else snprintf(reason, n, "%s", why->text);
+}
+
+static const char *status_of(ErrorKind kind) {
+    if (kind <= ERR_CHECK) return "ok";
+    return kind == ERR_INPUT || kind == ERR_USAGE ? "refused" : "failed";
+}
+
 static bool add_rows(const Batch *b, StatsFile *f, int i, Error *e) {
     const JobResult *result = &b->item[i].result;
-    const Error *why = &result->error;
-    char reason[720] = "";
-    if (why->kind > ERR_CHECK && why->line) snprintf(reason, sizeof reason, "%s:%d:%d: %s", why->file, why->line, why->column, why->text);
-    else if (why->kind > ERR_CHECK) snprintf(reason, sizeof reason, "%s", why->text);
+    char reason[720];
+    give_reason(&result->error, reason, sizeof reason);
     for (int g = 0; g < b->wardrobe->ngarments; g++) {
         SummaryRow row = result->row[g];
         row.motion = b->input[i].name;
         row.garment = b->wardrobe->garment[g]->name;
-        row.status = why->kind <= ERR_CHECK ? "ok" : why->kind == ERR_INPUT || why->kind == ERR_USAGE ? "refused" : "failed";
+        row.status = status_of(result->error.kind);
         row.reason = reason[0] ? reason : NULL;
         if (!stats_add_summary(f, &row, e)) return false;
     }
@@ -165,14 +177,16 @@ static bool write_summary(const Batch *b, Error *e) {
 }
 
 static void print_stages(const Batch *b, double elapsed) {
-    static const char *const names[] = {"open and fit", "pose", "global shape", "test", "push", "mesh", "write", "other"};
+    static const char *const names[STAGE_COUNT] = {"open and fit", "pose", "global shape", "test",
+                                                   "push",         "mesh", "write",        "other"};
     double sum[STAGE_COUNT] = {0}, whole = 0;
     for (int i = 0; i < b->count; i++)
         for (int k = 0; k < STAGE_COUNT; k++) sum[k] += b->item[i].result.seconds[k];
     for (int k = 0; k < STAGE_COUNT; k++) whole += sum[k];
     for (int k = 0; k < STAGE_COUNT; k++)
         fprintf(stderr, "  %-14s %9.3f s  %5.1f %%\n", names[k], sum[k], whole > 0 ? 100 * sum[k] / whole : 0);
-    fprintf(stderr, "  %-14s %9.3f s  on %d thread%s in %.3f s\n", "together", whole, b->nworkers, b->nworkers == 1 ? "" : "s", elapsed);
+    fprintf(stderr, "  %-14s %9.3f s  on %d thread%s in %.3f s\n", "together", whole, b->nworkers,
+            b->nworkers == 1 ? "" : "s", elapsed);
 }
 
 static void print_bytes(double bytes) {
@@ -193,7 +207,8 @@ static void print_end(const Batch *b) {
         bytes += r->bytes;
     }
     if (b->wardrobe->settings->verbose) print_stages(b, elapsed);
-    fprintf(stderr, "%d of %d motion%s dressed, %lld frames, %lld with residuals, ", done, b->count, b->count == 1 ? "" : "s", frames, residual);
+    fprintf(stderr, "%d of %d motion%s dressed, %lld frames, %lld with residuals, ", done, b->count,
+            b->count == 1 ? "" : "s", frames, residual);
     print_bytes((double)bytes);
     fprintf(stderr, " in %.1f s (%.0f frames/s)\n", elapsed, elapsed > 0 ? (double)frames / elapsed : 0);
 }
@@ -207,7 +222,8 @@ static bool prepare(Batch *b, Arena *arena, Error *e) {
     SummaryRow *rows = ARENA_NEW(arena, SummaryRow, (size_t)b->count * (size_t)b->wardrobe->ngarments, e);
     if (!b->item || !b->worker || !rows) return false;
     for (int i = 0; i < b->count; i++) b->item[i].result.row = rows + (size_t)i * (size_t)b->wardrobe->ngarments;
-    bool visible = s->progress == PROGRESS_ALWAYS || (s->progress == PROGRESS_AUTO && !s->quiet && isatty(STDERR_FILENO));
+    bool visible = s->progress == PROGRESS_ALWAYS;
+    if (s->progress == PROGRESS_AUTO) visible = !s->quiet && isatty(STDERR_FILENO);
     progress_start(&b->progress, visible, b->count, look_at_folders(b));
     return true;
 }

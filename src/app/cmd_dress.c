@@ -16,8 +16,8 @@ static bool read_garments(const Settings *s, Wardrobe *w, Arena *arena, Error *e
         good = w->garment[g] && garment_read(s->garments.item[g], &scratch, w->garment[g], e);
         for (int k = 0; good && k < g; k++)
             if (strcmp(w->garment[k]->name, w->garment[g]->name) == 0)
-                good = error_set(e, ERR_USAGE, "'%s' and '%s' are both called '%s'", s->garments.item[k], s->garments.item[g],
-                                 w->garment[g]->name);
+                good = error_set(e, ERR_USAGE, "'%s' and '%s' are both called '%s'", s->garments.item[k],
+                                 s->garments.item[g], w->garment[g]->name);
     }
     arena_free(&scratch);
     return good && w->garment;

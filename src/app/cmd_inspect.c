@@ -61,10 +61,20 @@ static void print_warnings(const Notes *notes) {
    are found without it. */
 static const char *naming(const Skeleton *s) {
     static const struct { const char *sign, *family; } families[] = {
-        {"mixamorig", "Mixamo"},       {"Bip0", "3ds Max Biped"},     {"lfemur", "CMU Acclaim"},   {"lShldr", "Poser and Daz"},
-        {"LHipJoint", "CMU"},          {"joint_Root", "Bandai-Namco"}, {"upperleg01", "MakeHuman"}, {"LeftInHand", "Rokoko and Neuron"},
-        {"J_Bip", "VRM"},              {"_jnt", "Maya rig"},          {"LeftUpLeg", "MotionBuilder"}, {"thigh_l", "Unreal"},
-        {"LeftCollar", "collar, shoulder, elbow, wrist"}, {"LeftKnee", "hip, knee, ankle"}};
+        {"mixamorig", "Mixamo"},
+        {"Bip0", "3ds Max Biped"},
+        {"lfemur", "CMU Acclaim"},
+        {"lShldr", "Poser and Daz"},
+        {"LHipJoint", "CMU"},
+        {"joint_Root", "Bandai-Namco"},
+        {"upperleg01", "MakeHuman"},
+        {"LeftInHand", "Rokoko and Neuron"},
+        {"J_Bip", "VRM"},
+        {"_jnt", "Maya rig"},
+        {"LeftUpLeg", "MotionBuilder"},
+        {"thigh_l", "Unreal"},
+        {"LeftCollar", "collar, shoulder, elbow, wrist"},
+        {"LeftKnee", "hip, knee, ankle"}};
     for (size_t i = 0; i < sizeof families / sizeof families[0]; i++)
         for (int j = 0; j < s->njoints; j++)
             if (strstr(s->joint[j].name, families[i].sign)) return families[i].family;
@@ -85,7 +95,8 @@ static void print_motion(const Motion *m) {
     printf("%s: %s motion\n", m->path, m->format);
     printf("  joints      %d and %d end sites, %d channels\n", s->njoints - ends, ends, s->nchannels);
     printf("  names       %s\n", naming(s));
-    printf("  positions   channels of %d joint%s %s the OFFSET\n", moved, moved == 1 ? "" : "s", s->position_adds ? "add to" : "replace");
+    printf("  positions   channels of %d joint%s %s the OFFSET\n", moved, moved == 1 ? "" : "s",
+           s->position_adds ? "add to" : "replace");
     printf("  frames      %d\n", m->nframes);
     printf("  rate        %.6g a second%s, %.6g s in all\n", 1 / m->frame_time, m->has_frame_time ? "" : " (assumed)",
            (m->nframes - 1) * m->frame_time);
@@ -148,12 +159,13 @@ static bool inspect_motion(const char *path, const Settings *s, Arena *arena, Er
     return good;
 }
 
-/* Writes a model to memory; NULL where memory is exhausted. The caller frees it. */
 typedef bool WriteModel(const void *model, FILE *out);
+typedef bool ParseModel(const Text *text, void *out, Error *e);
 
 static bool write_garment(const void *model, FILE *out) { return garment_write(model, out); }
 static bool write_body(const void *model, FILE *out) { return body_write(model, out); }
 
+/* Writes a model to memory; NULL where memory is exhausted. The caller frees it. */
 static char *text_of(const void *model, WriteModel *write, size_t *size) {
     char *text = NULL;
     FILE *out = open_memstream(&text, size);
@@ -165,8 +177,7 @@ static char *text_of(const void *model, WriteModel *write, size_t *size) {
 }
 
 /* Reads what was written from `model` into `again` and compares what that writes. */
-static void print_round_trip(const Text *source, const void *model, bool (*parse)(const Text *, void *, Error *), void *again,
-                             WriteModel *write) {
+static void print_round_trip(const Text *source, const void *model, ParseModel *parse, void *again, WriteModel *write) {
     Error wrong = {0};
     size_t size = 0, size_again = 0;
     char *text = text_of(model, write, &size), *text_again = NULL;
@@ -186,7 +197,8 @@ static bool parse_body(const Text *text, void *out, Error *e) { return body_pars
 static void print_garment(const char *path, const Garment *g, const DresserInfo *info) {
     printf("%s: garment %s\n", path, g->name);
     printf("  follows     %s, %s\n", g->follow == FOLLOW_BONES ? "bones" : "envelope", g->loose ? "loose" : "tight");
-    printf("  patches     %d\n  panels      %d and %d raw patch%s\n", info->patches, g->npanels, g->npatches, g->npatches == 1 ? "" : "es");
+    printf("  patches     %d\n", info->patches);
+    printf("  panels      %d and %d raw patch%s\n", g->npanels, g->npatches, g->npatches == 1 ? "" : "es");
     for (int i = 0; i < g->npanels; i++) printf("    %-18s %d rows\n", g->panel[i].name, g->panel[i].nrows);
     for (int i = 0; i < g->npatches; i++) printf("    %-18s raw\n", g->patch[i].name);
     printf("  rings       %d\n  seams       %d\n  openings    %d\n  collides   ", g->nrings, g->nseams, info->openings);
@@ -204,7 +216,8 @@ static bool inspect_garment(const Text *text, Arena *arena, Error *e) {
     Dresser *dresser;
     if (!g || !body || !figure || !garment_parse(text, g, e)) return false;
     *figure = figure_reference();
-    if (!body_fit(body_default(), figure, 16, arena, body, e) || !dresser_open(g, figure, body, &options, arena, &dresser, e)) return false;
+    if (!body_fit(body_default(), figure, 16, arena, body, e)) return false;
+    if (!dresser_open(g, figure, body, &options, arena, &dresser, e)) return false;
     DresserInfo info = dresser_info(dresser);
     print_garment(text->name, g, &info);
     print_round_trip(text, g, parse_garment, g + 1, write_garment);
@@ -219,8 +232,10 @@ static bool inspect_body(const Text *text, Arena *arena, Error *e) {
     *figure = figure_reference();
     if (!body_fit(spec, figure, 16, arena, body, e)) return false;
     printf("%s: body %s\n  parts       %d\n", text->name, spec->name, spec->nparts);
-    for (int i = 0; i < spec->nparts; i++) printf("    %-18s %d sections\n", role_name(spec->part[i].role), spec->part[i].nsections);
-    printf("  skin        %d patches, as a mesh %d vertices and %d triangles\n", body->npatches, body->skin.nvertices, body->skin.ntriangles);
+    for (int i = 0; i < spec->nparts; i++)
+        printf("    %-18s %d sections\n", role_name(spec->part[i].role), spec->part[i].nsections);
+    printf("  skin        %d patches, as a mesh %d vertices and %d triangles\n", body->npatches, body->skin.nvertices,
+           body->skin.ntriangles);
     print_round_trip(text, spec, parse_body, spec + 1, write_body);
     return true;
 }
@@ -246,10 +261,15 @@ static bool inspect(const char *path, const Settings *s, Arena *arena, Error *e)
     return is_garment ? inspect_garment(&text, arena, e) : inspect_body(&text, arena, e);
 }
 
+static bool check_needed(const Settings *s, Error *e) {
+    if (s->inputs.count == 0) return error_set(e, ERR_USAGE, "nothing to inspect: name a motion, garment or body file");
+    if (s->joints && s->inputs.count > 1) return error_set(e, ERR_USAGE, "'--joints' takes one motion at a time");
+    return true;
+}
+
 ErrorKind cmd_inspect(const Settings *s, Error *e) {
     ErrorKind worst = ERR_NONE;
-    if (s->inputs.count == 0) return error_set(e, ERR_USAGE, "nothing to inspect: name a motion, garment or body file"), ERR_USAGE;
-    if (s->joints && s->inputs.count > 1) return error_set(e, ERR_USAGE, "'--joints' takes one motion at a time"), ERR_USAGE;
+    if (!check_needed(s, e)) return e->kind;
     for (int i = 0; i < s->inputs.count; i++) {
         Arena arena = {0};
         Error wrong = {0};

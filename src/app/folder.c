@@ -34,7 +34,8 @@ static bool is_ours(const char *name) {
 
 bool folder_clear(const char *path, Error *e) {
     DIR *folder = opendir(path);
-    if (!folder) return errno == ENOENT || error_set(e, ERR_OUTPUT, "cannot open the folder '%s': %s", path, strerror(errno));
+    if (!folder && errno == ENOENT) return true;
+    if (!folder) return error_set(e, ERR_OUTPUT, "cannot open the folder '%s': %s", path, strerror(errno));
     bool good = true;
     for (struct dirent *entry; good && (entry = readdir(folder));)
         if (is_ours(entry->d_name) && unlinkat(dirfd(folder), entry->d_name, 0) != 0 && errno != ENOENT)

@@ -52,8 +52,8 @@ static void print_option(const Option *o, FILE *out) {
 }
 
 void help_command(const Command *command, FILE *out) {
-    fprintf(out, "kitsuke %s - %s\n\nUsage: kitsuke %s %s\n\nExample:\n", command->name, command->summary, command->name,
-            command->operands);
+    fprintf(out, "kitsuke %s - %s\n\n", command->name, command->summary);
+    fprintf(out, "Usage: kitsuke %s %s\n\nExample:\n", command->name, command->operands);
     for (const char *line = command->example; *line;) {
         int length = (int)strcspn(line, "\n");
         fprintf(out, "  %.*s\n", length, line);
@@ -77,7 +77,8 @@ static const char exit_codes[] =
 void help_program(const Command *commands, FILE *out) {
     fprintf(out, "kitsuke - dress moving bodies in garments of bicubic Bezier patches\n\n"
                  "Usage: kitsuke COMMAND [OPTION]... [FILE]...\n\nExample:\n");
-    for (const Command *c = commands; c->name; c++) fprintf(out, "  %.*s\n", (int)strcspn(c->example, "\n"), c->example);
+    for (const Command *c = commands; c->name; c++)
+        fprintf(out, "  %.*s\n", (int)strcspn(c->example, "\n"), c->example);
     fprintf(out, "\nCommands\n");
     for (const Command *c = commands; c->name; c++) fprintf(out, "  %-10s %s\n", c->name, c->summary);
     fprintf(out, "\n'kitsuke COMMAND --help' explains a command's options.\n\n%s", exit_codes);

@@ -142,7 +142,10 @@ char *inputs_clean(const char *part, size_t length, Arena *arena, Error *e) {
     }
     out[n] = 0;
     for (size_t i = 0; i < sizeof ours / sizeof ours[0]; i++)
-        if (has_ending(out, ours[i])) return strcat(out, "_"); /* no folder may stand where a file of ours would */
+        if (has_ending(out, ours[i])) { /* no folder may stand where a file of ours would */
+            memcpy(out + n, "_", 2);
+            break;
+        }
     return out;
 }
 

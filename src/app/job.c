@@ -52,7 +52,8 @@ static bool open_motion(Job *j, Error *e) {
     MotionOptions options = {.asf = s->asf, .fps = s->fps, .position = (PositionRule)s->position};
     FigureOptions figure = {s->unit, s->scale, (char)s->up};
     Roles roles;
-    if (j->input->is_empty) return error_set(e, ERR_INPUT, "no motion (.bvh or .amc) in the folder '%s'", j->input->path);
+    if (j->input->is_empty)
+        return error_set(e, ERR_INPUT, "no motion (.bvh or .amc) in the folder '%s'", j->input->path);
     return motion_open(j->input->path, &options, j->arena, j->notes, &j->motion, e) &&
            roles_read(&j->motion, s->roles, j->arena, j->notes, &roles, e) &&
            figure_build(&j->motion, &roles, &figure, j->arena, j->notes, &j->figure, e) &&
@@ -170,8 +171,9 @@ static bool check(const Job *j, Error *e) {
     for (int g = 0; j->settings->strict && g < j->wardrobe->ngarments; g++) {
         const SummaryRow *sum = &j->result->row[g];
         if (sum->residual_frames > 0)
-            return error_at(e, ERR_CHECK, (Place){.file = j->input->path}, "the body shows through '%s' in %d of %d frames",
-                            j->wardrobe->garment[g]->name, sum->residual_frames, sum->frames);
+            return error_at(e, ERR_CHECK, (Place){.file = j->input->path},
+                            "the body shows through '%s' in %d of %d frames", j->wardrobe->garment[g]->name,
+                            sum->residual_frames, sum->frames);
     }
     return true;
 }
@@ -188,12 +190,12 @@ static bool run(Job *j, const JobWatch *watch, Error *e) {
 static void tell(const Job *j, FILE *about) {
     const Motion *m = &j->motion;
     const Figure *f = &j->figure;
-    fprintf(about, "%s: %s, %d frames at %.5g a second, figure %.2f m, unit %s, %s\n", j->input->name, m->format, m->nframes,
-            1 / m->frame_time, f->height, f->unit_name, f->rest);
+    fprintf(about, "%s: %s, %d frames at %.5g a second, figure %.2f m, unit %s, %s\n", j->input->name, m->format,
+            m->nframes, 1 / m->frame_time, f->height, f->unit_name, f->rest);
     for (int g = 0; g < j->wardrobe->ngarments; g++) {
         const SummaryRow *sum = &j->result->row[g];
-        fprintf(about, "%s/%s: %d frames, %d with residuals, moved by %.1f cm at most\n", j->input->name, j->wardrobe->garment[g]->name,
-                sum->frames, sum->residual_frames, 100 * sum->max_displacement);
+        fprintf(about, "%s/%s: %d frames, %d with residuals, moved by %.1f cm at most\n", j->input->name,
+                j->wardrobe->garment[g]->name, sum->frames, sum->residual_frames, 100 * sum->max_displacement);
     }
 }
 
@@ -203,13 +205,14 @@ static double other_seconds(const double *seconds, double whole) {
     return whole > 0 ? whole : 0;
 }
 
-void job_run(const Wardrobe *wardrobe, const Input *input, const JobWatch *watch, JobMemory *memory, Notes *notes, FILE *about,
-             JobResult *out) {
+void job_run(const Wardrobe *wardrobe, const Input *input, const JobWatch *watch, JobMemory *memory, Notes *notes,
+             FILE *about, JobResult *out) {
     double since = clock_seconds();
     Job *j = ARENA_NEW(&memory->arena, Job, 1, &out->error);
     if (!j) return;
-    *j = (Job){.wardrobe = wardrobe, .settings = wardrobe->settings, .input = input, .arena = &memory->arena, .obj = &memory->obj,
-               .notes = notes, .result = out};
+    *j = (Job){.wardrobe = wardrobe, .settings = wardrobe->settings, .input = input, .notes = notes, .result = out};
+    j->arena = &memory->arena;
+    j->obj = &memory->obj;
     j->unit = j->settings->output_unit > 0 ? 1 / j->settings->output_unit : 1;
     bool good = run(j, watch, &out->error);
     if (j->take) take_notes(j->take, notes);

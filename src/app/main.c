@@ -7,13 +7,21 @@
 #include "app/help.h"
 
 static const Command commands[] = {
-    {"dress", COMMAND_DRESS, "dress moving bodies in garments, frame by frame", "[OPTION]... MOTION... -g GARMENT... -o DIR",
-     "kitsuke dress motions/paper-walk.bvh -g garments/skirt.garment -o out\n"
-     "kitsuke dress mocap/ -g garments/skirt.garment -o out --format drc --rate 30", cmd_dress},
-    {"inspect", COMMAND_INSPECT, "tell what is in a motion, garment or body file", "[OPTION]... FILE...",
-     "kitsuke inspect motions/paper-walk.bvh\nkitsuke inspect --joints motions/paper-walk.bvh > joints.csv", cmd_inspect},
-    {"walk", COMMAND_WALK, "make a walking motion", "[OPTION]...",
-     "kitsuke walk --preset paper -o paper-walk.bvh\nkitsuke walk --height 1.2 --speed 0.9 --steps 20 > child.bvh", cmd_walk},
+    {.name = "dress", .bit = COMMAND_DRESS, .run = cmd_dress,
+     .summary = "dress moving bodies in garments, frame by frame",
+     .operands = "[OPTION]... MOTION... -g GARMENT... -o DIR",
+     .example = "kitsuke dress motions/paper-walk.bvh -g garments/skirt.garment -o out\n"
+                "kitsuke dress mocap/ -g garments/skirt.garment -o out --format drc --rate 30"},
+    {.name = "inspect", .bit = COMMAND_INSPECT, .run = cmd_inspect,
+     .summary = "tell what is in a motion, garment or body file",
+     .operands = "[OPTION]... FILE...",
+     .example = "kitsuke inspect motions/paper-walk.bvh\n"
+                "kitsuke inspect --joints motions/paper-walk.bvh > joints.csv"},
+    {.name = "walk", .bit = COMMAND_WALK, .run = cmd_walk,
+     .summary = "make a walking motion",
+     .operands = "[OPTION]...",
+     .example = "kitsuke walk --preset paper -o paper-walk.bvh\n"
+                "kitsuke walk --height 1.2 --speed 0.9 --steps 20 > child.bvh"},
     {0}};
 
 static const Command *find_command(const char *name) {
@@ -25,7 +33,8 @@ static const Command *find_command(const char *name) {
 static bool unknown_command(const char *name, Error *e) {
     if (name[0] == '-') return error_set(e, ERR_USAGE, "expected a command in front of '%s'", name);
     for (const Command *c = commands; c->name; c++)
-        if (text_distance(c->name, name) <= 2) return error_set(e, ERR_USAGE, "unknown command '%s'; did you mean '%s'?", name, c->name);
+        if (text_distance(c->name, name) <= 2)
+            return error_set(e, ERR_USAGE, "unknown command '%s'; did you mean '%s'?", name, c->name);
     return error_set(e, ERR_USAGE, "unknown command '%s'", name);
 }
 
@@ -85,7 +94,8 @@ int main(int argc, char **argv) {
     if (e.kind) error_print(&e, stderr);
     if (e.kind == ERR_USAGE) {
         const Command *command = argc > 1 ? find_command(argv[1]) : NULL;
-        fprintf(stderr, "Use 'kitsuke %s%s--help' for what there is.\n", command ? command->name : "", command ? " " : "");
+        fprintf(stderr, "Use 'kitsuke %s%s--help' for what there is.\n", command ? command->name : "",
+                command ? " " : "");
     }
     return (int)code;
 }

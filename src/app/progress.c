@@ -12,7 +12,8 @@
 enum { WIDTH_DEFAULT = 80, WIDTH_MAX = 200 };
 
 void progress_start(Progress *p, bool visible, int motions, double weight) {
-    *p = (Progress){.visible = visible, .motions = motions, .weight = weight > 0 ? weight : 1, .started = clock_seconds()};
+    *p = (Progress){.visible = visible, .motions = motions, .weight = weight > 0 ? weight : 1};
+    p->started = clock_seconds();
 }
 
 static int terminal_width(void) {
@@ -29,8 +30,8 @@ static int put_duration(char *out, size_t n, double seconds) {
 }
 
 static void compose(const Progress *p, double under_way, double elapsed, char *out, size_t n) {
-    double part = (p->finished + under_way) / p->weight;
-    size_t k = (size_t)snprintf(out, n, "%d/%d motions, %.0f frames/s", p->done, p->motions, elapsed > 0 ? (double)p->frames / elapsed : 0);
+    double part = (p->finished + under_way) / p->weight, rate = elapsed > 0 ? (double)p->frames / elapsed : 0;
+    size_t k = (size_t)snprintf(out, n, "%d/%d motions, %.0f frames/s", p->done, p->motions, rate);
     if (p->failed && k < n) k += (size_t)snprintf(out + k, n - k, ", %d failed", p->failed);
     if (elapsed > 1 && part > 0.001 && k + 2 < n) {
         k += (size_t)snprintf(out + k, n - k, ", ");

@@ -9,13 +9,16 @@
 
 #include "base/text.h"
 
-static const Choice split_rules[] = {{"adaptive", SPLIT_ADAPTIVE}, {"uniform", SPLIT_UNIFORM}, {"none", SPLIT_NONE}, {NULL, 0}};
+static const Choice split_rules[] = {
+    {"adaptive", SPLIT_ADAPTIVE}, {"uniform", SPLIT_UNIFORM}, {"none", SPLIT_NONE}, {NULL, 0}};
 static const Choice topologies[] = {{"adaptive", 0}, {"fixed", 1}, {NULL, 0}};
-static const Choice positions[] = {{"guess", POSITION_GUESS}, {"add", POSITION_ADD}, {"replace", POSITION_REPLACE}, {NULL, 0}};
+static const Choice positions[] = {
+    {"guess", POSITION_GUESS}, {"add", POSITION_ADD}, {"replace", POSITION_REPLACE}, {NULL, 0}};
 static const Choice axes[] = {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}, {"-x", 'X'}, {"-y", 'Y'}, {"-z", 'Z'}, {NULL, 0}};
 static const Choice formats[] = {{"obj", FORMAT_OBJ}, {"drc", FORMAT_DRC}, {"none", FORMAT_NONE}, {NULL, 0}};
 static const Choice presets[] = {{"normal", 0}, {"paper", 0}, {"brisk", 0}, {"squat", 0}, {"turn", 0}, {NULL, 0}};
-static const Choice progress_modes[] = {{"auto", PROGRESS_AUTO}, {"always", PROGRESS_ALWAYS}, {"never", PROGRESS_NEVER}, {NULL, 0}};
+static const Choice progress_modes[] = {
+    {"auto", PROGRESS_AUTO}, {"always", PROGRESS_ALWAYS}, {"never", PROGRESS_NEVER}, {NULL, 0}};
 
 /* Names that --unit takes, in metres. */
 static const struct { const char *name; double metres; } units[] = {
@@ -27,89 +30,112 @@ enum { UNITS = sizeof units / sizeof units[0] };
 #define MOVES (COMMAND_DRESS | COMMAND_INSPECT) /* both open motions */
 
 const Option settings_table[] = {
-    {"asf", 0, KIND_TEXT, FIELD(asf), "FILE", "skeleton of AMC motions", "the .asf file beside the motion", "Motion", MOVES},
-    {"roles", 0, KIND_TEXT, FIELD(roles), "FILE", "which joint is which bone, as lines 'role = joint'",
-     "found by names and shape", "Motion", MOVES},
-    {"frames", 0, KIND_SPAN, FIELD(frames), "A:B:STEP", "first and last frame, counted from 1, and step; each part may be left out",
-     "all", "Motion", MOVES},
-    {"rate", 0, KIND_REAL, FIELD(rate), "HZ", "resample to so many frames a second; --frames then counts these", "the motion's own",
-     "Motion", COMMAND_DRESS, RANGE(0.001, 100000)},
-    {"fps", 0, KIND_REAL, FIELD(fps), "HZ", "frames a second of the motion, instead of what the file says", "the file's, or 120",
-     "Motion", MOVES, RANGE(0.001, 100000)},
-    {"unit", 0, KIND_UNIT, FIELD(unit), "UNIT", "length unit of the motion", "found from the figure's size", "Motion", MOVES,
-     RANGE(1e-6, 1e6)},
-    {"scale", 0, KIND_REAL, FIELD(scale), "X", "makes the figure so many times larger", "1", "Motion", MOVES, RANGE(0.001, 1000)},
-    {"up", 0, KIND_CHOICE, FIELD(up), "AXIS", "axis that points up in the motion", "found from the poses", "Motion", MOVES,
-     .choices = axes},
-    {"position", 0, KIND_CHOICE, FIELD(position), "RULE", "what position channels do to a joint's OFFSET", "guess", "Motion", MOVES,
-     .choices = positions},
+    {"asf", 0, KIND_TEXT, FIELD(asf), "FILE", "Motion", MOVES,
+     "skeleton of AMC motions", .fallback = "the .asf file beside the motion"},
+    {"roles", 0, KIND_TEXT, FIELD(roles), "FILE", "Motion", MOVES,
+     "which joint is which bone, as lines 'role = joint'", .fallback = "found by names and shape"},
+    {"frames", 0, KIND_SPAN, FIELD(frames), "A:B:STEP", "Motion", MOVES,
+     "first and last frame, counted from 1, and step; each part may be left out", .fallback = "all"},
+    {"rate", 0, KIND_REAL, FIELD(rate), "HZ", "Motion", COMMAND_DRESS,
+     "resample to so many frames a second; --frames then counts these", .fallback = "the motion's own",
+     RANGE(0.001, 100000)},
+    {"fps", 0, KIND_REAL, FIELD(fps), "HZ", "Motion", MOVES,
+     "frames a second of the motion, instead of what the file says", .fallback = "the file's, or 120",
+     RANGE(0.001, 100000)},
+    {"unit", 0, KIND_UNIT, FIELD(unit), "UNIT", "Motion", MOVES,
+     "length unit of the motion", .fallback = "found from the figure's size", RANGE(1e-6, 1e6)},
+    {"scale", 0, KIND_REAL, FIELD(scale), "X", "Motion", MOVES,
+     "makes the figure so many times larger", .fallback = "1", RANGE(0.001, 1000)},
+    {"up", 0, KIND_CHOICE, FIELD(up), "AXIS", "Motion", MOVES,
+     "axis that points up in the motion", .fallback = "found from the poses", .choices = axes},
+    {"position", 0, KIND_CHOICE, FIELD(position), "RULE", "Motion", MOVES,
+     "what position channels do to a joint's OFFSET", .fallback = "guess", .choices = positions},
 
-    {"garment", 'g', KIND_LIST, FIELD(garments), "FILE", "garment to put on; repeat it for several", NULL, "Garments and body",
-     COMMAND_DRESS},
-    {"body", 0, KIND_TEXT, FIELD(body), "FILE", "body to dress", "a well-proportioned adult", "Garments and body", COMMAND_DRESS},
-    {"body-detail", 0, KIND_INT, FIELD(body_detail), "N", "facets round each section of the body", "16", "Garments and body",
-     COMMAND_DRESS, RANGE(8, 64), .step = 4},
+    {"garment", 'g', KIND_LIST, FIELD(garments), "FILE", "Garments and body", COMMAND_DRESS,
+     "garment to put on; repeat it for several"},
+    {"body", 0, KIND_TEXT, FIELD(body), "FILE", "Garments and body", COMMAND_DRESS,
+     "body to dress", .fallback = "a well-proportioned adult"},
+    {"body-detail", 0, KIND_INT, FIELD(body_detail), "N", "Garments and body", COMMAND_DRESS,
+     "facets round each section of the body", .fallback = "16", RANGE(8, 64), .step = 4},
 
-    {"split", 0, KIND_CHOICE, FIELD(split), "RULE", "which patches are split: those that meet the body, all, or none", "adaptive",
-     "Method", COMMAND_DRESS, .choices = split_rules},
-    {"depth", 0, KIND_INT, FIELD(depth), "N", "levels of splitting", "2", "Method", COMMAND_DRESS, RANGE(1, 3)},
-    {"detail", 0, KIND_INT, FIELD(detail), "N", "facets along each side of a patch", "the garment's, or 8", "Method", COMMAND_DRESS,
-     RANGE(1, 64)},
-    {"topology", 0, KIND_CHOICE, FIELD(fixed), "KIND", "adaptive: facets follow the splitting; fixed: the same triangles in every frame",
-     "adaptive", "Method", COMMAND_DRESS, .choices = topologies},
+    {"split", 0, KIND_CHOICE, FIELD(split), "RULE", "Method", COMMAND_DRESS,
+     "which patches are split: those that meet the body, all, or none", .fallback = "adaptive",
+     .choices = split_rules},
+    {"depth", 0, KIND_INT, FIELD(depth), "N", "Method", COMMAND_DRESS,
+     "levels of splitting", .fallback = "2", RANGE(1, 3)},
+    {"detail", 0, KIND_INT, FIELD(detail), "N", "Method", COMMAND_DRESS,
+     "facets along each side of a patch", .fallback = "the garment's, or 8", RANGE(1, 64)},
+    {"topology", 0, KIND_CHOICE, FIELD(fixed), "KIND", "Method", COMMAND_DRESS,
+     "adaptive: facets follow the splitting; fixed: the same triangles in every frame", .fallback = "adaptive",
+     .choices = topologies},
 
-    {"output", 'o', KIND_TEXT, FIELD(output), "DIR", "folder for everything that is written; made if missing", NULL, "Output",
-     COMMAND_DRESS},
-    {"format", 0, KIND_SET, FIELD(formats), "LIST", "mesh files, separated by commas", "obj", "Output", COMMAND_DRESS,
-     .choices = formats},
-    {"output-unit", 0, KIND_UNIT, FIELD(output_unit), "UNIT", "length unit of the written meshes", "m", "Output", COMMAND_DRESS,
-     RANGE(1e-6, 1e6)},
-    {"no-body", 0, KIND_FLAG, FIELD(no_body), NULL, "write no meshes of the body", NULL, "Output", COMMAND_DRESS},
-    {"no-times", 0, KIND_FLAG, FIELD(no_times), NULL, "leave the columns of seconds out of the statistics", NULL, "Output", COMMAND_DRESS},
-    {"force", 'f', KIND_FLAG, FIELD(force), NULL, "replace motion folders that are there already", NULL, "Output", COMMAND_DRESS},
-    {"draco-position-bits", 0, KIND_INT, FIELD(drc.position_bits), "N", "quantisation of positions", "14", "Output", COMMAND_DRESS,
-     RANGE(1, 30)},
-    {"draco-normal-bits", 0, KIND_INT, FIELD(drc.normal_bits), "N", "quantisation of normals", "10", "Output", COMMAND_DRESS, RANGE(2, 30)},
-    {"draco-uv-bits", 0, KIND_INT, FIELD(drc.uv_bits), "N", "quantisation of patch parameters", "12", "Output", COMMAND_DRESS,
-     RANGE(1, 30)},
-    {"draco-speed", 0, KIND_INT, FIELD(drc.speed), "N", "0: smallest files, 10: fastest", "7", "Output", COMMAND_DRESS, RANGE(0, 10),
-     .bias = 1},
-    {"draco-keep-order", 0, KIND_FLAG, FIELD(drc.keep_order), NULL, "keep the order of vertices; larger files", NULL, "Output",
-     COMMAND_DRESS},
+    {"output", 'o', KIND_TEXT, FIELD(output), "DIR", "Output", COMMAND_DRESS,
+     "folder for everything that is written; made if missing"},
+    {"format", 0, KIND_SET, FIELD(formats), "LIST", "Output", COMMAND_DRESS,
+     "mesh files, separated by commas", .fallback = "obj", .choices = formats},
+    {"output-unit", 0, KIND_UNIT, FIELD(output_unit), "UNIT", "Output", COMMAND_DRESS,
+     "length unit of the written meshes", .fallback = "m", RANGE(1e-6, 1e6)},
+    {"no-body", 0, KIND_FLAG, FIELD(no_body), NULL, "Output", COMMAND_DRESS,
+     "write no meshes of the body"},
+    {"no-times", 0, KIND_FLAG, FIELD(no_times), NULL, "Output", COMMAND_DRESS,
+     "leave the columns of seconds out of the statistics"},
+    {"force", 'f', KIND_FLAG, FIELD(force), NULL, "Output", COMMAND_DRESS,
+     "replace motion folders that are there already"},
+    {"draco-position-bits", 0, KIND_INT, FIELD(drc.position_bits), "N", "Output", COMMAND_DRESS,
+     "quantisation of positions", .fallback = "14", RANGE(1, 30)},
+    {"draco-normal-bits", 0, KIND_INT, FIELD(drc.normal_bits), "N", "Output", COMMAND_DRESS,
+     "quantisation of normals", .fallback = "10", RANGE(2, 30)},
+    {"draco-uv-bits", 0, KIND_INT, FIELD(drc.uv_bits), "N", "Output", COMMAND_DRESS,
+     "quantisation of patch parameters", .fallback = "12", RANGE(1, 30)},
+    {"draco-speed", 0, KIND_INT, FIELD(drc.speed), "N", "Output", COMMAND_DRESS,
+     "0: smallest files, 10: fastest", .fallback = "7", RANGE(0, 10), .bias = 1},
+    {"draco-keep-order", 0, KIND_FLAG, FIELD(drc.keep_order), NULL, "Output", COMMAND_DRESS,
+     "keep the order of vertices; larger files"},
 
-    {"joints", 0, KIND_FLAG, FIELD(joints), NULL, "print frame,joint,x,y,z of every joint and frame, in the file's units and axes",
-     NULL, "Output", COMMAND_INSPECT},
+    {"joints", 0, KIND_FLAG, FIELD(joints), NULL, "Output", COMMAND_INSPECT,
+     "print frame,joint,x,y,z of every joint and frame, in the file's units and axes"},
 
-    {"preset", 0, KIND_TEXT, FIELD(gait.preset), "NAME", "kind of walk; paper: the walk of the paper's figures", "normal", "Walk",
-     COMMAND_WALK, .choices = presets},
-    {"steps", 0, KIND_INT, FIELD(gait.steps), "N", "steps to walk", "what suits the preset", "Walk", COMMAND_WALK, RANGE(1, 10000)},
-    {"frames-per-step", 0, KIND_INT, FIELD(gait.frames_per_step), "N", "frames of one step", "36", "Walk", COMMAND_WALK, RANGE(4, 1000)},
-    {"height", 0, KIND_REAL, FIELD(gait.height), "M", "stature in metres", "1.7", "Walk", COMMAND_WALK, RANGE(0.5, 2.5)},
-    {"speed", 0, KIND_REAL, FIELD(gait.speed), "M/S", "metres a second", "what suits the step", "Walk", COMMAND_WALK, RANGE(0.05, 10)},
-    {"step-length", 0, KIND_REAL, FIELD(gait.step_length), "M", "metres from heel to heel", "what suits height and preset", "Walk",
-     COMMAND_WALK, RANGE(0.05, 2)},
-    {"knee-lift", 0, KIND_REAL, FIELD(gait.knee_lift), "DEG", "how much more the knee bends in swing", "0", "Walk", COMMAND_WALK,
-     RANGE(0, 90)},
-    {"arm-swing", 0, KIND_REAL, FIELD(gait.arm_swing), "DEG", "half the range of the upper arm", "the preset's", "Walk", COMMAND_WALK,
-     RANGE(0, 90)},
-    {"slope", 0, KIND_REAL, FIELD(gait.slope), "DEG", "of the ground, up is positive", "0", "Walk", COMMAND_WALK, RANGE(-40, 40)},
-    {"stairs", 0, KIND_INT, FIELD(gait.stair_count), "N", "steps of a stair", "0", "Walk", COMMAND_WALK, RANGE(0, 1000)},
-    {"stair-rise", 0, KIND_REAL, FIELD(gait.stair_rise), "M", "height of each, downwards if negative", "0", "Walk", COMMAND_WALK,
-     RANGE(-0.4, 0.4)},
-    {"stair-run", 0, KIND_REAL, FIELD(gait.stair_run), "M", "depth of each", "0", "Walk", COMMAND_WALK, RANGE(0, 1)},
-    {"output", 'o', KIND_TEXT, FIELD(output), "FILE", "BVH file to write", "standard output", "Output", COMMAND_WALK},
+    {"preset", 0, KIND_TEXT, FIELD(gait.preset), "NAME", "Walk", COMMAND_WALK,
+     "kind of walk; paper: the walk of the paper's figures", .fallback = "normal", .choices = presets},
+    {"steps", 0, KIND_INT, FIELD(gait.steps), "N", "Walk", COMMAND_WALK,
+     "steps to walk", .fallback = "what suits the preset", RANGE(1, 10000)},
+    {"frames-per-step", 0, KIND_INT, FIELD(gait.frames_per_step), "N", "Walk", COMMAND_WALK,
+     "frames of one step", .fallback = "36", RANGE(4, 1000)},
+    {"height", 0, KIND_REAL, FIELD(gait.height), "M", "Walk", COMMAND_WALK,
+     "stature in metres", .fallback = "1.7", RANGE(0.5, 2.5)},
+    {"speed", 0, KIND_REAL, FIELD(gait.speed), "M/S", "Walk", COMMAND_WALK,
+     "metres a second", .fallback = "what suits the step", RANGE(0.05, 10)},
+    {"step-length", 0, KIND_REAL, FIELD(gait.step_length), "M", "Walk", COMMAND_WALK,
+     "metres from heel to heel", .fallback = "what suits height and preset", RANGE(0.05, 2)},
+    {"knee-lift", 0, KIND_REAL, FIELD(gait.knee_lift), "DEG", "Walk", COMMAND_WALK,
+     "how much more the knee bends in swing", .fallback = "0", RANGE(0, 90)},
+    {"arm-swing", 0, KIND_REAL, FIELD(gait.arm_swing), "DEG", "Walk", COMMAND_WALK,
+     "half the range of the upper arm", .fallback = "the preset's", RANGE(0, 90)},
+    {"slope", 0, KIND_REAL, FIELD(gait.slope), "DEG", "Walk", COMMAND_WALK,
+     "of the ground, up is positive", .fallback = "0", RANGE(-40, 40)},
+    {"stairs", 0, KIND_INT, FIELD(gait.stair_count), "N", "Walk", COMMAND_WALK,
+     "steps of a stair", .fallback = "0", RANGE(0, 1000)},
+    {"stair-rise", 0, KIND_REAL, FIELD(gait.stair_rise), "M", "Walk", COMMAND_WALK,
+     "height of each, downwards if negative", .fallback = "0", RANGE(-0.4, 0.4)},
+    {"stair-run", 0, KIND_REAL, FIELD(gait.stair_run), "M", "Walk", COMMAND_WALK,
+     "depth of each", .fallback = "0", RANGE(0, 1)},
+    {"output", 'o', KIND_TEXT, FIELD(output), "FILE", "Output", COMMAND_WALK,
+     "BVH file to write", .fallback = "standard output"},
 
-    {"jobs", 'j', KIND_INT, FIELD(jobs), "N", "motions that are dressed at the same time", "one for each processor", "Run",
-     COMMAND_DRESS, RANGE(1, 256)},
-    {"strict", 0, KIND_FLAG, FIELD(strict), NULL, "exit with 1 if the body shows through a garment anywhere", NULL, "Run",
-     COMMAND_DRESS},
-    {"quiet", 'q', KIND_FLAG, FIELD(quiet), NULL, "errors only", NULL, "Messages", COMMAND_DRESS},
-    {"verbose", 'v', KIND_FLAG, FIELD(verbose), NULL, "more about each motion, and where the time went", NULL, "Messages",
-     COMMAND_DRESS},
-    {"progress", 0, KIND_CHOICE, FIELD(progress), "WHEN", "a line that tells how far it is; auto: on a terminal", "auto", "Messages",
-     COMMAND_DRESS, .choices = progress_modes},
-    {"help", 'h', KIND_FLAG, FIELD(help), NULL, "print this page", NULL, "Messages", COMMAND_ALL},
-    {"version", 'V', KIND_FLAG, FIELD(version), NULL, "print the version", NULL, "Messages", COMMAND_ALL},
+    {"jobs", 'j', KIND_INT, FIELD(jobs), "N", "Run", COMMAND_DRESS,
+     "motions that are dressed at the same time", .fallback = "one for each processor", RANGE(1, 256)},
+    {"strict", 0, KIND_FLAG, FIELD(strict), NULL, "Run", COMMAND_DRESS,
+     "exit with 1 if the body shows through a garment anywhere"},
+    {"quiet", 'q', KIND_FLAG, FIELD(quiet), NULL, "Messages", COMMAND_DRESS,
+     "errors only"},
+    {"verbose", 'v', KIND_FLAG, FIELD(verbose), NULL, "Messages", COMMAND_DRESS,
+     "more about each motion, and where the time went"},
+    {"progress", 0, KIND_CHOICE, FIELD(progress), "WHEN", "Messages", COMMAND_DRESS,
+     "a line that tells how far it is; auto: on a terminal", .fallback = "auto", .choices = progress_modes},
+    {"help", 'h', KIND_FLAG, FIELD(help), NULL, "Messages", COMMAND_ALL,
+     "print this page"},
+    {"version", 'V', KIND_FLAG, FIELD(version), NULL, "Messages", COMMAND_ALL,
+     "print the version"},
     {0}};
 
 const Option *settings_find(const char *name, size_t length, unsigned commands) {
@@ -166,25 +192,29 @@ static bool is_number(const char *text, double *x) {
     return text_number(text, end, x) == end && *text;
 }
 
+/* The one form of all complaints about values. */
+static bool expected(const Option *option, const char *what, const char *text, Error *e) {
+    return error_set(e, ERR_USAGE, "option '--%s': expected %s, found '%s'", option->name, what, text);
+}
+
 static bool put_int(int *field, const Option *option, const char *text, Error *e) {
     double x = 0;
+    char what[80];
     int step = option->step ? option->step : 1;
-    bool good = is_number(text, &x) && x >= option->low && x <= option->high && (int)x == x && (int)x % step == 0;
-    if (good) *field = (int)x + option->bias;
-    else if (step > 1)
-        error_set(e, ERR_USAGE, "option '--%s': expected a multiple of %d from %.0f to %.0f, found '%s'", option->name, step,
-                  option->low, option->high, text);
-    else
-        error_set(e, ERR_USAGE, "option '--%s': expected a whole number from %.0f to %.0f, found '%s'", option->name, option->low,
-                  option->high, text);
-    return good;
+    if (is_number(text, &x) && x >= option->low && x <= option->high && (int)x == x && (int)x % step == 0) {
+        *field = (int)x + option->bias;
+        return true;
+    }
+    if (step > 1) snprintf(what, sizeof what, "a multiple of %d from %.0f to %.0f", step, option->low, option->high);
+    else snprintf(what, sizeof what, "a whole number from %.0f to %.0f", option->low, option->high);
+    return expected(option, what, text, e);
 }
 
 static bool put_real(double *field, const Option *option, const char *text, Error *e) {
     double x = 0;
-    if (!is_number(text, &x) || !(x >= option->low && x <= option->high))
-        return error_set(e, ERR_USAGE, "option '--%s': expected a number from %g to %g, found '%s'", option->name, option->low,
-                         option->high, text);
+    char what[80];
+    snprintf(what, sizeof what, "a number from %g to %g", option->low, option->high);
+    if (!is_number(text, &x) || !(x >= option->low && x <= option->high)) return expected(option, what, text, e);
     *field = x;
     return true;
 }
@@ -196,9 +226,9 @@ static bool put_unit(double *field, const Option *option, const char *text, Erro
         return true;
     }
     double x = 0;
-    if (!is_number(text, &x) || !(x >= option->low && x <= option->high))
-        return error_set(e, ERR_USAGE, "option '--%s': expected m, dm, cm, mm, in, ft or a number of metres from %g to %g, found '%s'",
-                         option->name, option->low, option->high, text);
+    char what[80];
+    snprintf(what, sizeof what, "m, dm, cm, mm, in, ft or a number of metres from %g to %g", option->low, option->high);
+    if (!is_number(text, &x) || !(x >= option->low && x <= option->high)) return expected(option, what, text, e);
     *field = x;
     return true;
 }
@@ -255,7 +285,7 @@ static bool put_span(FrameSpan *field, const Option *option, const char *text, E
             return true;
         }
     }
-    return error_set(e, ERR_USAGE, "option '--%s': expected A:B:STEP with frames from 1 and A <= B, found '%s'", option->name, text);
+    return expected(option, "A:B:STEP with frames from 1 and A <= B", text, e);
 }
 
 bool settings_append(TextList *list, const char *text, Arena *arena, Error *e) {

@@ -95,8 +95,9 @@ static bool look_at_first(Take *t, Error *e) {
 
 static double pelvis_width(const Take *t) {
     Vec3 start = t->figure->start[ROLE_PELVIS];
-    return vec_dist(rigid_apply(t->behind.pose.bone[ROLE_PELVIS], start), rigid_apply(t->ahead.pose.bone[ROLE_PELVIS], start)) /
-           t->figure->height;
+    Vec3 behind = rigid_apply(t->behind.pose.bone[ROLE_PELVIS], start);
+    Vec3 ahead = rigid_apply(t->ahead.pose.bone[ROLE_PELVIS], start);
+    return vec_dist(behind, ahead) / t->figure->height;
 }
 
 static Step judge(const Take *t, double width) {
@@ -136,7 +137,8 @@ static int count_frames(const Motion *m, double rate) {
     return n < 2e9 ? (int)n : 2000000000;
 }
 
-bool take_open(const Motion *m, const Figure *figure, const FrameSpan *span, double rate, Arena *arena, Take **out, Error *e) {
+bool take_open(const Motion *m, const Figure *figure, const FrameSpan *span, double rate, Arena *arena, Take **out,
+               Error *e) {
     const Skeleton *s = &m->skeleton;
     Take *t = ARENA_NEW(arena, Take, 1, e);
     *out = t;
@@ -147,7 +149,8 @@ bool take_open(const Motion *m, const Figure *figure, const FrameSpan *span, dou
     t->last = span->last && span->last < total ? span->last : total;
     t->step = span->step ? span->step : 1;
     if (t->number > total)
-        return error_set(e, ERR_USAGE, "'--frames' begins at %d, but '%s' has %d frame%s", t->number, m->path, total, total == 1 ? "" : "s");
+        return error_set(e, ERR_USAGE, "'--frames' begins at %d, but '%s' has %d frame%s", t->number, m->path, total,
+                         total == 1 ? "" : "s");
     t->row = ARENA_NEW(arena, double, s->nchannels, e);
     t->behind.world = ARENA_NEW(arena, Rigid, s->njoints, e);
     t->ahead.world = ARENA_NEW(arena, Rigid, s->njoints, e);
@@ -236,11 +239,16 @@ static void note_jump(const Jump *j, Place place, Notes *notes) {
     char frames[48];
     if (j->first == j->last) snprintf(frames, sizeof frames, "frame %d", j->first);
     else snprintf(frames, sizeof frames, "frames %d to %d", j->first, j->last);
-    if (j->kind == STEP_FLIP) notes_add(notes, place, "a limb flips by up to %.2f heights a frame at %s", j->width, frames);
-    else if (j->first == 2 && j->last == 2) notes_add(notes, place, "frame 1 stands apart from the rest; cloth starts afresh at frame 2");
+    if (j->kind == STEP_FLIP)
+        notes_add(notes, place, "a limb flips by up to %.2f heights a frame at %s", j->width, frames);
+    else if (j->first == 2 && j->last == 2)
+        notes_add(notes, place, "frame 1 stands apart from the rest; cloth starts afresh at frame 2");
     else if (j->first == 2)
-        notes_add(notes, place, "the first %d frames stand apart from the rest; cloth starts afresh up to frame %d", j->last - 1, j->last);
-    else notes_add(notes, place, "the figure jumps by up to %.2f heights a frame at %s; cloth starts afresh", j->width, frames);
+        notes_add(notes, place, "the first %d frames stand apart from the rest; cloth starts afresh up to frame %d",
+                  j->last - 1, j->last);
+    else
+        notes_add(notes, place, "the figure jumps by up to %.2f heights a frame at %s; cloth starts afresh", j->width,
+                  frames);
 }
 
 void take_notes(const Take *t, Notes *notes) {
