@@ -11,6 +11,7 @@ typedef struct {
     int id[4 * LATTICE_LEVELS];       /* into Push.displacement */
     double weight[4 * LATTICE_LEVELS], share[4 * LATTICE_LEVELS], norm2; /* share: weight x mobility */
     double spent, budget;             /* push issued in this frame, and its limit; metres */
+    Vec3 net;                         /* their sum */
     Vec3 seen;                        /* where it was when its distances were last taken, */
     double slack;                     /* and how far it may go from there before that matters */
 } PushSample;

@@ -20,6 +20,7 @@ static const double FELT = 0.0002;      /* a carried displacement below this is 
 static const double PIN_GIVES = 0.2;    /* a pinned level vertex moves this share of what a free one would */
 static const double NORM_MIN = 0.1;     /* a sample that level vertices hardly move must not fling them */
 static const double BUDGET = 0.02;      /* a sample may issue twice its first violation and this */
+static const double HEADWAY = 0.6;      /* pushes that get this share of their length nowhere are a pinch */
 static const double RAISE_MAX = 0.02;   /* most extra clearance */
 static const double OFFSET_MAX = 0.03;  /* of a single vertex: more would be a spike */
 
@@ -197,6 +198,12 @@ static void project(Push *p, const PushSample *s, Vec3 n, double depth, PushResu
     }
 }
 
+/* Between two parts that overlap there is no room: each push undoes the one before, and all that
+   would come of it is that the neighbours are carried away. */
+static bool is_pinched(const Push *p, const PushSample *s) {
+    return s->spent > s->budget || (s->spent > BUDGET * p->scale && vec_len(s->net) < HEADWAY * s->spent);
+}
+
 /* Pushes one sample out of the parts it is too near to. Distances change no faster than the
    point moves, so a sample that has been found clear is left alone until it has used up its
    slack. Returns the depth of the worst violation that was acted on. */
@@ -212,8 +219,9 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
         slack = fmin(slack, SLACK * clearance - depth);
         if (depth <= SLACK * clearance) continue;
         if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->scale;
-        if (s->spent > s->budget) continue; /* pinched: it has had its say */
+        if (is_pinched(p, s)) continue; /* it has had its say */
         s->spent += depth;
+        s->net = vec_mad(s->net, n, depth);
         project(p, s, n, depth, result);
         x = sample_point(p, sheet, s);
         most = fmax(most, depth);
