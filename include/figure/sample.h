@@ -24,14 +24,15 @@ static inline Vec3 sample_point(const Sample *s, int i, int joint) { return s->w
 double sample_distance(const Sample *s, int a, int b);
 
 /* The frames with the largest scores (one for each frame), best first: a quarter of all, at
-   least one. Returns their number. */
+   least three where there are three. Returns their number. */
 int sample_best(const Sample *s, const double *score, int out[SAMPLE_BEST_MAX]);
 
 /* The same for the frames in which two joints are lowest. upright: file axes -> Y up. */
 int sample_lowest(const Sample *s, Mat3 upright, int a, int b, int out[SAMPLE_BEST_MAX]);
 
 /* The joint below `joint` (end sites too) that lies farthest from it in the first frame of
-   the sample; -1 where nothing below it has any distance. */
-int sample_tip(const Sample *s, const Skeleton *skeleton, int joint);
+   the sample, but not beyond `limit`: what a foot stands on may hang below it. -1 where nothing
+   below it has any distance. */
+int sample_tip(const Sample *s, const Skeleton *skeleton, int joint, double limit);
 
 #endif

@@ -88,7 +88,9 @@ static Mat3 snap_left(Mat3 bind) {
 
 /* bind of a joint from frames in which left is the line between two joints and up is the line
    of the back, with a share of the vertical: a chest leans as the back leans, a pelvis less. */
-static Mat3 bind_from_line(const Binder *b, const int *frames, int n, int joint, Role right, Role left, double vertical) {
+static Mat3 bind_from_line(const Binder *b, const int *frames, int n, Role role, Role right, Role left,
+                           double vertical) {
+    int joint = b->f->roles.joint[role];
     Mean mean = {{0, 0, 0, 0}, 0};
     for (int i = 0; i < n; i++) {
         Vec3 up = vec_lerp(back_line(b, frames[i]), vec(0, 1, 0), vertical);
@@ -225,8 +227,9 @@ void figure_bind(const Skeleton *skeleton, const Sample *sample, const Rest *res
         f->bind[ROLE_PELVIS].r = f->bind[ROLE_CHEST].r = rest->frame;
         if (j[ROLE_HEAD] >= 0) f->bind[ROLE_HEAD].r = head_from_rest(&b, upright, n, rest->frame);
     } else {
-        f->bind[ROLE_PELVIS].r = bind_from_line(&b, upright, n, j[ROLE_PELVIS], ROLE_RIGHT_THIGH, ROLE_LEFT_THIGH, 0.5);
-        f->bind[ROLE_CHEST].r = bind_from_line(&b, upright, n, j[ROLE_CHEST], ROLE_RIGHT_UPPER_ARM, ROLE_LEFT_UPPER_ARM, 0);
+        f->bind[ROLE_PELVIS].r = bind_from_line(&b, upright, n, ROLE_PELVIS, ROLE_RIGHT_THIGH, ROLE_LEFT_THIGH, 0.5);
+        f->bind[ROLE_CHEST].r =
+            bind_from_line(&b, upright, n, ROLE_CHEST, ROLE_RIGHT_UPPER_ARM, ROLE_LEFT_UPPER_ARM, 0);
         if (j[ROLE_HEAD] >= 0) f->bind[ROLE_HEAD].r = bind_like(&b, upright, n, j[ROLE_HEAD], ROLE_CHEST);
     }
     anchor_torso(&b, ROLE_PELVIS, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH);

@@ -113,7 +113,8 @@ static void pose_neck_and_head(const Poser *p) {
     Mat3 half = mat_from_quat(quat_nlerp(quat_from_mat(chest.r), quat_from_mat(head.r), 0.5));
     Rigid neck = placed(point_along(f, ROLE_NECK, half, vec_sub(skull, base)), f->start[ROLE_NECK], base);
     p->pose->bone[ROLE_NECK] = neck;
-    p->pose->bone[ROLE_HEAD] = placed(head.r, f->start[ROLE_HEAD], not_far(p, rigid_apply(neck, f->end[ROLE_NECK]), skull));
+    Vec3 start = not_far(p, rigid_apply(neck, f->end[ROLE_NECK]), skull);
+    p->pose->bone[ROLE_HEAD] = placed(head.r, f->start[ROLE_HEAD], start);
 }
 
 static void pose_arm(const Poser *p, Role clavicle) {
@@ -121,7 +122,8 @@ static void pose_arm(const Poser *p, Role clavicle) {
     Role upper = clavicle + 1, forearm = clavicle + 2, hand = clavicle + 3;
     Vec3 start = rigid_apply(p->pose->bone[ROLE_CHEST], f->start[clavicle]);
     Vec3 along = vec_sub(vec_add(point(p, f->roles.joint[upper]), aside(p, upper)), start);
-    p->pose->bone[clavicle] = placed(point_along(f, clavicle, p->pose->bone[ROLE_CHEST].r, along), f->start[clavicle], start);
+    Mat3 r = point_along(f, clavicle, p->pose->bone[ROLE_CHEST].r, along);
+    p->pose->bone[clavicle] = placed(r, f->start[clavicle], start);
     /* The upper arm's turn is counted from the chest: the clavicle's is small and noisy. */
     pose_limb_bone(p, upper, clavicle, ROLE_CHEST);
     pose_limb_bone(p, forearm, upper, upper);

@@ -42,8 +42,14 @@ static bool tangled(const Tree *t, const LimbPair *a, const LimbPair *b) {
     return false;
 }
 
+static int root_of(const Tree *t, int joint) {
+    while (t->skeleton->joint[joint].parent >= 0) joint = t->skeleton->joint[joint].parent;
+    return joint;
+}
+
 static double human_score(const Tree *t, const LimbPair *legs, const LimbPair *arms) {
     if (legs->hub == arms->hub || tangled(t, legs, arms)) return -1e9;
+    if (root_of(t, legs->hub) != root_of(t, arms->hub)) return -1e9; /* two performers in one file */
     double leg = legs->limb[0].length[0] + legs->limb[0].length[1];
     double arm = arms->limb[0].length[0] + arms->limb[0].length[1];
     double trunk = 0, down = 0;
@@ -87,7 +93,7 @@ static double left_by_shape(const Tree *t, const LimbPair *legs, const LimbPair 
     double votes = 0, size = 0;
     for (int i = 0; i < 2; i++) {
         int end = legs->limb[i].joint[2];
-        tip[i] = t->skeleton->joint[end].is_end ? -1 : sample_tip(t->sample, t->skeleton, end);
+        tip[i] = t->skeleton->joint[end].is_end ? -1 : sample_tip(t->sample, t->skeleton, end, legs->limb[i].length[1]);
     }
     for (int f = 0; f < t->sample->count; f++) {
         Vec3 left = vec_cross(torso(t, f, legs, arms), forward(t, f, legs, tip));
@@ -186,16 +192,19 @@ static double hip_line_fixed(const Tree *t, int joint, const LimbPair *legs) {
 static int find_pelvis(const Tree *t, const LimbPair *legs) {
     int hub = legs->hub;
     if (t->hint[hub].weight[PART_PELVIS] >= 0.7) return hub;
-    for (int j = t->skeleton->joint[hub].parent, steps = 0; j >= 0 && steps < 3; j = t->skeleton->joint[j].parent, steps++)
-        if (t->hint[j].weight[PART_PELVIS] >= 0.7 && hip_line_fixed(t, j, legs) > 0.99) return j;
+    int above = hub;
+    for (int steps = 0; steps < 3; steps++) {
+        above = t->skeleton->joint[above].parent;
+        if (above < 0) break;
+        if (t->hint[above].weight[PART_PELVIS] >= 0.7 && hip_line_fixed(t, above, legs) > 0.99) return above;
+    }
     return hub;
 }
 
 /* The joint on the way from the pelvis to `chest` that comes first above the pelvis; -1 = none. */
 static int find_spine(const Tree *t, int pelvis, int chest) {
-    int first = -1;
-    for (int j = t->skeleton->joint[chest].parent; j >= 0 && !tree_below(t, pelvis, j); j = t->skeleton->joint[j].parent)
-        first = j;
+    int first = -1, j = t->skeleton->joint[chest].parent;
+    for (; j >= 0 && !tree_below(t, pelvis, j); j = t->skeleton->joint[j].parent) first = j;
     return first;
 }
 
@@ -263,8 +272,10 @@ static int head_by_shape(const Tree *t, const Human *h, int first) {
         head = j;
         int next = -1;
         double longest = 0;
-        for (int c = t->child[j]; c >= 0; c = t->sibling[c])
-            if (!t->skeleton->joint[c].is_end && t->bone[c] + t->reach[c] > longest) longest = t->bone[c] + t->reach[c], next = c;
+        for (int c = t->child[j]; c >= 0; c = t->sibling[c]) {
+            double length = t->bone[c] + t->reach[c];
+            if (!t->skeleton->joint[c].is_end && length > longest) longest = length, next = c;
+        }
         j = next;
     }
     return head;
@@ -279,8 +290,10 @@ static void set_torso(const Tree *t, const Human *h, Roles *out) {
         neck = chest;
         chest = below;
     }
-    for (int j = h->arms->hub; j >= 0 && first < 0 && !tree_below(t, pelvis, j); j = t->skeleton->joint[j].parent)
+    for (int j = h->arms->hub; j >= 0 && first < 0; j = t->skeleton->joint[j].parent) {
         first = head_branch(t, h, j);
+        if (tree_below(t, pelvis, j)) break;
+    }
     out->joint[ROLE_PELVIS] = pelvis;
     out->joint[ROLE_CHEST] = chest;
     out->joint[ROLE_SPINE] = find_spine(t, pelvis, chest);
@@ -318,7 +331,8 @@ void human_find(const Tree *t, Notes *notes, Roles *out) {
     if (best_legs) {
         Human h = {best_legs, best_arms, 0};
         h.stature = best_legs->limb[0].length[0] + best_legs->limb[0].length[1];
-        for (int f = 0; f < t->sample->count; f++) h.stature += vec_len(torso(t, f, best_legs, best_arms)) / t->sample->count;
+        for (int f = 0; f < t->sample->count; f++)
+            h.stature += vec_len(torso(t, f, best_legs, best_arms)) / t->sample->count;
         h.stature *= STATURE_BY_LIMBS;
         set_limbs(t, best_legs, best_arms, left_leg(t, best_legs, best_arms, notes),
                   same_side(t, best_legs, best_arms), out);

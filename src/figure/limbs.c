@@ -15,7 +15,8 @@ enum {
 
 /* Points. A fully named pair gets about 50, a well shaped one about 10 more. */
 static const double LONG_BONE_NAMED = 10, END_NAMED = 6, CLAVICLE_NAMED = 4, SIDES_NAMED = 5;
-static const double COVERAGE = 8, UNEVEN = 4, SKIPPED = 0.4, FORKED = 2, BENT = 20, FAR_START = 4, NO_END_JOINT = 1, COINCIDES = 0.5, MIRROR = 8;
+static const double COVERAGE = 8, UNEVEN = 4, SKIPPED = 0.4, FORKED = 2, BENT = 20, FAR_START = 4;
+static const double NO_END_JOINT = 1, COINCIDES = 0.5, MIRROR = 8;
 
 /* ln(upper / lower bone): leg 0.415 m / 0.39 m, arm 0.28 / 0.25 in the reference figure. */
 static const double EVEN[2] = {0.06, 0.11};
@@ -102,7 +103,8 @@ static void try_limb(const Tree *t, LimbKind kind, const Way *w, int a, int b, L
     limb.length[0] = sample_distance(t->sample, limb.joint[0], limb.joint[1]);
     limb.length[1] = sample_distance(t->sample, limb.joint[1], limb.joint[2]);
     double total = w->along[c] - w->along[0] + t->reach[end], both = limb.length[0] + limb.length[1];
-    if (both < 0.1 * total || limb.length[0] < 0.2 * limb.length[1] || limb.length[1] < 0.2 * limb.length[0]) return;
+    double shorter = fmin(limb.length[0], limb.length[1]), longer = fmax(limb.length[0], limb.length[1]);
+    if (!(both > 0) || both < 0.1 * total || shorter < 0.2 * longer) return;
 
     double uneven = log(limb.length[0] / limb.length[1]) - EVEN[kind];
     limb.score = name_points(t, kind, limb.joint) - UNEVEN * uneven * uneven;

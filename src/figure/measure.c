@@ -199,14 +199,15 @@ static void find_unit(double stature, double file_unit, Figure *f) {
 /* ---- */
 
 /* The hand points to what lies farthest along the forearm below it, on the mean: a finger, not
-   the thumb. */
+   the thumb, nor a thing in the hand. */
 static void find_fingertip(const Skeleton *skeleton, const Sample *s, Figure *f, Role hand) {
     int wrist = f->roles.joint[hand], elbow = f->roles.joint[hand - 1];
-    double farthest = 0;
-    for (int j = wrist + 1; wrist >= 0 && j < skeleton->njoints; j++) {
+    if (wrist < 0) return;
+    double farthest = 0, limit = sample_distance(s, elbow, wrist);
+    for (int j = wrist + 1; j < skeleton->njoints; j++) {
         int k = j;
         while (k > wrist) k = skeleton->joint[k].parent;
-        if (k != wrist) continue;
+        if (k != wrist || sample_distance(s, wrist, j) > limit) continue;
         double sum = 0;
         for (int i = 0; i < s->count; i++) {
             Vec3 at = sample_point(s, i, wrist), forearm = vec_sub(at, sample_point(s, i, elbow));
@@ -228,10 +229,14 @@ static void find_ends(const Skeleton *skeleton, const Sample *s, Figure *f) {
     };
     static const Role tips[] = {ROLE_LEFT_FOREARM, ROLE_RIGHT_FOREARM, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN,
                                 ROLE_LEFT_FOOT, ROLE_RIGHT_FOOT};
-    for (int r = 0; r < ROLE_COUNT; r++) f->toward[r] = next[r] ? f->roles.joint[next[r]] : -1;
-    for (size_t i = 0; i < sizeof tips / sizeof tips[0]; i++)
-        if (f->toward[tips[i]] < 0 && f->roles.joint[tips[i]] >= 0)
-            f->toward[tips[i]] = sample_tip(s, skeleton, f->roles.joint[tips[i]]);
+    const int *joint = f->roles.joint;
+    for (int r = 0; r < ROLE_COUNT; r++) f->toward[r] = next[r] ? joint[next[r]] : -1;
+    for (size_t i = 0; i < sizeof tips / sizeof tips[0]; i++) {
+        Role role = tips[i];
+        if (f->toward[role] >= 0 || joint[role] < 0) continue;
+        /* A hand's or a foot's tip: at most as far as the bone before it is long, and a half. */
+        f->toward[role] = sample_tip(s, skeleton, joint[role], 1.5 * sample_distance(s, joint[role - 1], joint[role]));
+    }
     find_fingertip(skeleton, s, f, ROLE_LEFT_HAND);
     find_fingertip(skeleton, s, f, ROLE_RIGHT_HAND);
 }
@@ -278,7 +283,7 @@ bool figure_measure(const Motion *m, const FigureOptions *options, const Sample 
         sane(l.shin * u, adult.shin * k, 0.5, 1.6),
         clamp(ankle, 0.5 * adult.ankle * k, 1.6 * adult.ankle * k),
         sane(l.torso * u, adult.torso * k, 0.5, 1.6),
-        clamp(l.shoulders * u, 0.8 * adult.shoulders * k, 1.5 * adult.shoulders * k),
+        clamp(l.shoulders * u, 0.77 * adult.shoulders * k, 1.5 * adult.shoulders * k),
         sane(l.upper_arm * u, adult.upper_arm * k, 0.5, 1.6),
         sane(l.forearm * u, adult.forearm * k, 0.5, 1.6),
         sane(l.hand * u, adult.hand * k, 0.75, 1.25),

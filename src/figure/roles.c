@@ -85,14 +85,15 @@ MUST_CHECK static bool read_line(const Skeleton *s, const Line *line, bool *give
     if (!copy_trimmed(value, end, joint_text, sizeof joint_text))
         return error_at(e, ERR_INPUT, at_joint, "joint name too long");
     int joint = skeleton_find(s, joint_text);
-    if (joint < 0 && strcmp(joint_text, "none") == 0) { out->joint[role] = -1; return true; }
-    if (joint < 0) return unknown_joint(s, at_joint, joint_text, e);
-    if (s->joint[joint].is_end) return error_at(e, ERR_INPUT, at_joint, "'%s' is an end site, not a joint", joint_text);
     out->joint[role] = joint;
-    return true;
+    if (joint < 0 && strcmp(joint_text, "none") == 0) return true;
+    if (joint < 0) return unknown_joint(s, at_joint, joint_text, e);
+    if (!s->joint[joint].is_end) return true;
+    return error_at(e, ERR_INPUT, at_joint, "'%s' is an end site, not a joint", joint_text);
 }
 
-MUST_CHECK static bool read_file(const Skeleton *s, const char *path, Arena *scratch, bool *given, Roles *out, Error *e) {
+MUST_CHECK static bool read_file(const Skeleton *s, const char *path, Arena *scratch, bool *given, Roles *out,
+                                 Error *e) {
     Text text;
     Line line;
     if (!text_read(path, FILE_LIMIT, scratch, &text, e)) return false;
@@ -130,7 +131,7 @@ static bool check_distinct(const Skeleton *s, const Roles *roles, Error *e) {
 static void yield_to_file(const bool *given, Roles *roles) {
     for (int a = 0; a < ROLE_COUNT; a++)
         for (int b = 0; b < ROLE_COUNT; b++)
-            if (given[a] && !given[b] && roles->joint[a] >= 0 && roles->joint[a] == roles->joint[b]) roles->joint[b] = -1;
+            if (given[a] && !given[b] && roles->joint[a] == roles->joint[b]) roles->joint[b] = -1;
 }
 
 bool roles_read(const Motion *m, const char *roles_file, Arena *scratch, Notes *notes, Roles *out, Error *e) {

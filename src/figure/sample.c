@@ -42,7 +42,7 @@ double sample_distance(const Sample *s, int a, int b) {
 }
 
 int sample_best(const Sample *s, const double *score, int out[SAMPLE_BEST_MAX]) {
-    int count = 0, most = s->count / 4 < 1 ? 1 : s->count / 4;
+    int count = 0, few = s->count < 3 ? s->count : 3, most = s->count / 4 > few ? s->count / 4 : few;
     for (int i = 0; i < s->count; i++) {
         int k = count;
         if (k < most) count++;
@@ -61,15 +61,15 @@ int sample_lowest(const Sample *s, Mat3 upright, int a, int b, int out[SAMPLE_BE
     return sample_best(s, score, out);
 }
 
-int sample_tip(const Sample *s, const Skeleton *skeleton, int joint) {
-    int tip = -1, first = s->count > 0 ? 0 : -1;
+int sample_tip(const Sample *s, const Skeleton *skeleton, int joint, double limit) {
+    int tip = -1;
     double farthest = 0;
-    for (int j = joint + 1; first == 0 && j < skeleton->njoints; j++) {
+    for (int j = joint + 1; s->count > 0 && j < skeleton->njoints; j++) {
         int k = j;
         while (k > joint) k = skeleton->joint[k].parent;
         if (k != joint) continue;
         double d = vec_dist(sample_point(s, 0, joint), sample_point(s, 0, j));
-        if (d > farthest * (1 + 1e-9)) farthest = d, tip = j;
+        if (d > farthest * (1 + 1e-9) && d <= limit) farthest = d, tip = j;
     }
     return tip;
 }

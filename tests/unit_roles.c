@@ -1,0 +1,277 @@
+/* Roles: what names say, which joint plays which bone in every family, files that settle it by
+   hand, and what is no human. */
+#include "figure/names.h"
+#include "folder.h"
+#include "rig.h"
+#include "tap.h"
+
+/* The joints of a family, in the order of Role: pelvis spine chest neck head; clavicle, upper arm,
+   forearm, hand; thigh, shin, foot, toe. A '*' stands for the side. */
+typedef struct {
+    const char *file, *left, *right;
+    const char *torso[5], *arm[4], *leg[4];
+} Family;
+
+#define MIXAMO(name) "mixamorig:" name
+static const Family families[] = {
+    {"mixamo.bvh", "Left", "Right",
+     {MIXAMO("Hips"), MIXAMO("Spine"), MIXAMO("Spine2"), MIXAMO("Neck"), MIXAMO("Head")},
+     {MIXAMO("*Shoulder"), MIXAMO("*Arm"), MIXAMO("*ForeArm"), MIXAMO("*Hand")},
+     {MIXAMO("*UpLeg"), MIXAMO("*Leg"), MIXAMO("*Foot"), MIXAMO("*ToeBase")}},
+    {"lafan1.bvh", "Left", "Right", {"Hips", "Spine", "Spine2", "Neck", "Head"},
+     {"*Shoulder", "*Arm", "*ForeArm", "*Hand"}, {"*UpLeg", "*Leg", "*Foot", "*Toe"}},
+    {"smpl.bvh", "L", "R", {"Pelvis", "Spine1", "Spine3", "Neck", "Head"},
+     {"*_Collar", "*_Shoulder", "*_Elbow", "*_Wrist"}, {"*_Hip", "*_Knee", "*_Ankle", "*_Foot"}},
+    {"biped.bvh", "L", "R", {"Bip01 Pelvis", "Bip01 Spine", "Bip01 Spine2", "Bip01 Neck", "Bip01 Head"},
+     {"Bip01 * Clavicle", "Bip01 * UpperArm", "Bip01 * Forearm", "Bip01 * Hand"},
+     {"Bip01 * Thigh", "Bip01 * Calf", "Bip01 * Foot", "Bip01 * Toe0"}},
+    {"unreal.bvh", "l", "r", {"pelvis", "spine_01", "spine_03", "neck_01", "head"},
+     {"clavicle_*", "upperarm_*", "lowerarm_*", "hand_*"}, {"thigh_*", "calf_*", "foot_*", "ball_*"}},
+    {"unity.bvh", "Left", "Right", {"Hips", "Spine", "UpperChest", "Neck", "Head"},
+     {"*Shoulder", "*UpperArm", "*LowerArm", "*Hand"}, {"*UpperLeg", "*LowerLeg", "*Foot", "*Toes"}},
+    {"rigify.bvh", "L", "R", {"DEF-spine", "DEF-spine.001", "DEF-spine.003", "DEF-spine.004", "DEF-spine.006"},
+     {"DEF-shoulder.*", "DEF-upper_arm.*", "DEF-forearm.*", "DEF-hand.*"},
+     {"DEF-thigh.*", "DEF-shin.*", "DEF-foot.*", "DEF-toe.*"}},
+    {"xsens.bvh", "Left", "Right", {"Pelvis", "L5", "T8", "Neck", "Head"},
+     {"*Shoulder", "*UpperArm", "*ForeArm", "*Hand"}, {"*UpperLeg", "*LowerLeg", "*Foot", "*Toe"}},
+    {"genesis.bvh", "l", "r", {"pelvis", "abdomenLower", "chestUpper", "neckLower", "head"},
+     {"*Collar", "*ShldrBend", "*ForearmBend", "*Hand"}, {"*ThighBend", "*Shin", "*Foot", "*Toe"}},
+    {"opensim.bvh", "l", "r", {"pelvis", "-", "torso", "-", "-"},
+     {"-", "humerus_*", "ulna_*", "hand_*"}, {"femur_*", "tibia_*", "talus_*", "toes_*"}},
+    {"neuron.bvh", "Left", "Right", {"Hips", "Spine", "Spine2", "Neck", "Head"},
+     {"*Shoulder", "*Arm", "*ForeArm", "*Hand"}, {"*UpLeg", "*Leg", "*Foot", "-"}},
+    {"kinect.bvh", "Left", "Right", {"SpineBase", "SpineMid", "SpineShoulder", "Neck", "Head"},
+     {"-", "Shoulder*", "Elbow*", "Wrist*"}, {"Hip*", "Knee*", "Ankle*", "Foot*"}},
+    {"vrm.bvh", "L", "R",
+     {"J_Bip_C_Hips", "J_Bip_C_Spine", "J_Bip_C_UpperChest", "J_Bip_C_Neck", "J_Bip_C_Head"},
+     {"J_Bip_*_Shoulder", "J_Bip_*_UpperArm", "J_Bip_*_LowerArm", "J_Bip_*_Hand"},
+     {"J_Bip_*_UpperLeg", "J_Bip_*_LowerLeg", "J_Bip_*_Foot", "J_Bip_*_ToeBase"}},
+    {"optitrack.bvh", "L", "R", {"Hip", "Ab", "Chest", "Neck", "Head"},
+     {"*Shoulder", "*UArm", "*FArm", "*Hand"}, {"*Thigh", "*Shin", "*Foot", "*Toe"}},
+    {"cat.bvh", "L", "R", {"CATRigHub001", "CATRigSpine1", "CATRigHub002", "CATRigNeck1", "CATRigHub003"},
+     {"CATRig*ArmCollarbone", "CATRig*Arm1", "CATRig*Arm2", "CATRig*ArmPalm"},
+     {"CATRig*Leg1", "CATRig*Leg2", "CATRig*LegAnkle", "CATRig*LegDigit11"}},
+    {"acclaim_names.bvh", "l", "r", {"root", "lowerback", "thorax", "lowerneck", "head"},
+     {"*clavicle", "*humerus", "*radius", "*wrist"}, {"*femur", "*tibia", "*foot", "*toes"}},
+    /* Left is 左 and right is 右. */
+    {"mmd.bvh", "\xe5\xb7\xa6", "\xe5\x8f\xb3",
+     {"下半身", "上半身", "上半身2", "首", "頭"},
+     {"*肩", "*腕", "*ひじ", "*手首"}, {"*足", "*ひざ", "*足首", "*つま先"}},
+    {"nameless_axis.bvh", "", "", {"j0", "j1", "j2", "j3", "j4"}, {NULL}, {NULL}},
+    {"nameless.bvh", "", "", {"j0", "j1", "j3", "j4", "j5"}, {NULL}, {NULL}},
+};
+
+static const Family real[] = {
+    {"cmu_daz_02_03_run.bvh", "l", "r", {"hip", "abdomen", "chest", "neck", "head"},
+     {"*Collar", "*Shldr", "*ForeArm", "*Hand"}, {"*Thigh", "*Shin", "*Foot", "-"}},
+    {"cmu_mb_12_01_walk.bvh", "Left", "Right", {"Hips", "LowerBack", "Spine1", "Neck", "Head"},
+     {"*Shoulder", "*Arm", "*ForeArm", "*Hand"}, {"*UpLeg", "*Leg", "*Foot", "*ToeBase"}},
+    {"cmu_mb_jumping_jacks.bvh", "Left", "Right", {"Hips", "lowerback", "Chest2", "lowerneck", "Head"},
+     {"*Collar", "*Shoulder", "*Elbow", "*Wrist"}, {"*Hip", "*Knee", "*Ankle", "*Toe"}},
+    {"fair1_dab.bvh", "Left", "Right", {"Hips", "Spine", "Spine3", "Neck", "Head"},
+     {"*Shoulder", "*Arm", "*ForeArm", "*Hand"}, {"*UpLeg", "*Leg", "*Foot", "*ToeBase"}},
+    {"rokoko_jesse_dance.bvh", "Left", "Right", {"Hips", "Spine", "Spine2", "Neck", "Head"},
+     {"*Shoulder", "*Arm", "*ForeArm", "*Hand"}, {"*UpLeg", "*Leg", "*Foot", "*ToeBase"}},
+    {"mixamorig_freebvh.bvh", "Left", "Right",
+     {MIXAMO("Hips"), MIXAMO("Spine"), MIXAMO("Spine2"), MIXAMO("Neck"), MIXAMO("Head")},
+     {MIXAMO("*Shoulder"), MIXAMO("*Arm"), MIXAMO("*ForeArm"), MIXAMO("*Hand")},
+     {MIXAMO("*UpLeg"), MIXAMO("*Leg"), MIXAMO("*Foot"), MIXAMO("*ToeBase")}},
+    {"mocapbank_crlf.bvh", "Left", "Right", {"Hips", "Chest", "Chest2", "Neck", "Head"},
+     {"*Collar", "*Shoulder", "*Elbow", "*Wrist"}, {"*Hip", "*Knee", "*Ankle", "-"}},
+    {"toolbox_walk01.bvh", "Left", "Right", {"Hips", "Spine", "Spine1", "Neck", "Head"},
+     {"*Shoulder", "*Arm", "*ForeArm", "*Hand"}, {"*UpLeg", "*Leg", "*Foot", "-"}},
+    {"pymo_8walk.bvh", "Left", "Right", {"Hips", "-", "Spine", "-", "Head"},
+     {"*Shoulder", "*Arm", "*ForeArm", "*Hand"}, {"*UpLeg", "*Leg", "*Foot", "*ToeBase"}},
+    {"pybvh_test2.bvh", "Left", "Right", {"Hips", "Chest", "Chest4", "Neck", "Head"},
+     {"*Collar", "*Shoulder", "*Elbow", "*Wrist"}, {"*Hip", "*Knee", "*Ankle", "*Toe"}},
+    {"pybvh_test3_fingers.bvh", "Left", "Right", {"Hips", "Spine", "Spine3", "Neck", "Head"},
+     {"*Shoulder", "*Arm", "*ForeArm", "*Hand"}, {"*UpLeg", "*Leg", "*Foot", "*ForeFoot"}},
+    {"dfki_custom_skeleton_walk.bvh", "L", "R",
+     {"FK_back1_jnt", "FK_back2_jnt", "FK_back3_jnt", "FK_back4_jnt", "head_jnt"},
+     {"*_shoulder_jnt", "*_upArm_jnt", "*_lowArm_jnt", "*_hand_jnt"},
+     {"*_upLeg_jnt", "*_lowLeg_jnt", "*_foot_jnt", "*_toe_jnt"}},
+    {"dfki_game_engine_walk.bvh", "Left", "Right", {"Hips", "LowerBack", "Spine1", "Neck", "Head"},
+     {"*Shoulder", "*Arm", "*ForeArm", "*Hand"}, {"*UpLeg", "*Leg", "*Foot", "*ToeBase"}},
+    {"makehuman_sit01.bvh", "L", "R", {"root", "spine05", "spine01", "neck01", "head"},
+     {"clavicle.*", "upperarm01.*", "lowerarm01.*", "wrist.*"},
+     {"upperleg01.*", "lowerleg01.*", "foot.*", "toe1-1.*"}},
+    {"bandai1_bow_normal_001_NC.bvh", "L", "R", {"Hips", "Spine", "Chest", "Neck", "Head"},
+     {"Shoulder_*", "UpperArm_*", "LowerArm_*", "Hand_*"}, {"UpperLeg_*", "LowerLeg_*", "Foot_*", "Toes_*"}},
+    {"bandai2_walk_turn_left_normal_001_NC.bvh", "L", "R", {"Hips", "Spine", "Chest", "Neck", "Head"},
+     {"Shoulder_*", "UpperArm_*", "LowerArm_*", "Hand_*"}, {"UpperLeg_*", "LowerLeg_*", "Foot_*", "Toes_*"}},
+    {"cmu_02_03_run.amc", "l", "r", {"root", "lowerback", "thorax", "lowerneck", "head"},
+     {"*clavicle", "*humerus", "*radius", "*hand"}, {"*femur", "*tibia", "*foot", "*toes"}},
+};
+
+/* Does `name` equal `pattern` with its '*' replaced by `side`? */
+static bool matches(const char *name, const char *pattern, const char *side) {
+    char wanted[128];
+    const char *star = strchr(pattern, '*');
+    if (!star) return strcmp(name, pattern) == 0;
+    snprintf(wanted, sizeof wanted, "%.*s%s%s", (int)(star - pattern), pattern, side, star + 1);
+    return strcmp(name, wanted) == 0;
+}
+
+static int check_roles(const Rig *r, const char *const *names, int n, Role first, const char *side) {
+    int wrong = 0;
+    for (int i = 0; i < n && names[0]; i++) {
+        if (matches(rig_joint(r, first + (Role)i), names[i], side)) continue;
+        printf("# %s is '%s', wanted '%s'\n", role_name(first + (Role)i), rig_joint(r, first + (Role)i), names[i]);
+        wrong++;
+    }
+    return wrong;
+}
+
+static void test_family(const Family *f, const char *path) {
+    Rig r;
+    bool good = rig_roles(&r, path, NULL);
+    if (!good) printf("# %s\n", r.e.text);
+    int wrong = !good;
+    if (good) {
+        wrong += check_roles(&r, f->torso, 5, ROLE_PELVIS, "");
+        wrong += check_roles(&r, f->arm, 4, ROLE_LEFT_CLAVICLE, f->left);
+        wrong += check_roles(&r, f->arm, 4, ROLE_RIGHT_CLAVICLE, f->right);
+        wrong += check_roles(&r, f->leg, 4, ROLE_LEFT_THIGH, f->left);
+        wrong += check_roles(&r, f->leg, 4, ROLE_RIGHT_THIGH, f->right);
+    }
+    OK(wrong == 0, "roles of %s", f->file);
+    rig_close(&r);
+}
+
+static void test_families(void) {
+    for (size_t i = 0; i < sizeof families / sizeof families[0]; i++) {
+        char path[256];
+        snprintf(path, sizeof path, "tests/data/figure/%s", families[i].file);
+        test_family(&families[i], path);
+    }
+    for (size_t i = 0; i < sizeof real / sizeof real[0]; i++) {
+        const char *path = rig_shared(real[i].file);
+        if (path) test_family(&real[i], path);
+        else SKIP(real[i].file, "no shared motions");
+    }
+}
+
+/* Without names the limbs are checked by their own order: joints are numbered down the limbs. */
+static void test_nameless(void) {
+    static const struct { const char *file; int left_arm, right_arm, left_leg, right_leg; } rigs[] = {
+        {"tests/data/figure/nameless.bvh", 20, 10, 16, 6},
+        {"tests/data/figure/nameless_axis.bvh", 9, 19, 5, 15},
+    };
+    for (int i = 0; i < 2; i++) {
+        Rig r;
+        int wrong = !rig_roles(&r, rigs[i].file, NULL);
+        for (int k = 0; k < 4 && !wrong; k++) {
+            char name[4][8];
+            snprintf(name[0], sizeof name[0], "j%d", rigs[i].left_arm + k);
+            snprintf(name[1], sizeof name[1], "j%d", rigs[i].right_arm + k);
+            snprintf(name[2], sizeof name[2], "j%d", rigs[i].left_leg + k);
+            snprintf(name[3], sizeof name[3], "j%d", rigs[i].right_leg + k);
+            wrong += strcmp(rig_joint(&r, ROLE_LEFT_CLAVICLE + (Role)k), name[0]) != 0;
+            wrong += strcmp(rig_joint(&r, ROLE_RIGHT_CLAVICLE + (Role)k), name[1]) != 0;
+            wrong += strcmp(rig_joint(&r, ROLE_LEFT_THIGH + (Role)k), name[2]) != 0;
+            wrong += strcmp(rig_joint(&r, ROLE_RIGHT_THIGH + (Role)k), name[3]) != 0;
+        }
+        OK(wrong == 0, "%s: limbs without names, left and right by the feet", rigs[i].file);
+        OK(r.notes.count == 1, "and a note says so");
+        rig_close(&r);
+    }
+}
+
+static void test_names(void) {
+    static const struct { const char *name; int side; Part part; } hints[] = {
+        {"LeftUpLeg", 1, PART_THIGH}, {"LEFTUPLEG", 1, PART_THIGH}, {"rThigh", -1, PART_THIGH},
+        {"thigh_l", 1, PART_THIGH}, {"DEF-thigh.R.001", -1, PART_THIGH}, {"Bip01 L Calf", 1, PART_SHIN},
+        {"ValveBiped.Bip01_R_UpperArm", -1, PART_UPPER_ARM}, {"lfemur", 1, PART_THIGH}, {"LUArm", 1, PART_UPPER_ARM},
+        {"UpperLeftArm", 1, PART_UPPER_ARM}, {"L_lowArm_jnt", 1, PART_FOREARM}, {"mElbowRight", -1, PART_FOREARM},
+        {"CC_Base_L_Calf", 1, PART_SHIN}, {"mixamorig:RightToeBase", -1, PART_TOE}, {"l_up_leg", 1, PART_THIGH},
+        {"lowerneck", 0, PART_NECK}, {"Head_M", 0, PART_HEAD},
+    };
+    for (size_t i = 0; i < sizeof hints / sizeof hints[0]; i++) {
+        NameHint h = name_hint(hints[i].name);
+        OK(h.side == hints[i].side && h.weight[hints[i].part] >= 0.9, "'%s' is understood", hints[i].name);
+    }
+    static const char *const not_hands[] = {"LeftHandThumb1", "LeftInHandIndex", "ik_hand_l", "LeftHandEnd",
+                                            "HandTipLeft"};
+    for (size_t i = 0; i < sizeof not_hands / sizeof not_hands[0]; i++)
+        OK(name_hint(not_hands[i]).weight[PART_HAND] < 0.1, "'%s' is no hand", not_hands[i]);
+    NameHint shoulder = name_hint("LeftShoulder");
+    OK(shoulder.weight[PART_CLAVICLE] > 0.5 && shoulder.weight[PART_UPPER_ARM] > 0.5, "'LeftShoulder' may be either");
+    static const char *const nothing[] = {"", "j12", "\xff\xfe", "---", "x", "0123"};
+    for (size_t i = 0; i < sizeof nothing / sizeof nothing[0]; i++) {
+        NameHint h = name_hint(nothing[i]);
+        double most = 0;
+        for (int p = 0; p < PART_COUNT; p++) most = fmax(most, h.weight[p]);
+        OK(most == 0 && h.side == 0, "'%s' says nothing", i == 2 ? "bytes" : nothing[i]);
+    }
+}
+
+static void write_text(const char *path, const char *text) {
+    FILE *f = fopen(path, "w");
+    fputs(text, f);
+    fclose(f);
+}
+
+static void test_refused(void) {
+    const char *path = in_folder("chain.bvh");
+    Rig r;
+    write_text(path, "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Xrotation Yrotation Zrotation\n"
+                     "JOINT b\n{\nOFFSET 0 1 0\nCHANNELS 3 Xrotation Yrotation Zrotation\n"
+                     "End Site\n{\nOFFSET 0 1 0\n}\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0 0 0 0\n");
+    bool good = rig_roles(&r, path, NULL);
+    OK(!good && r.e.kind == ERR_INPUT, "a chain is refused");
+    int named = 0;
+    for (int role = 0; role < ROLE_COUNT; role++) named += strstr(r.e.text, role_name((Role)role)) != NULL;
+    OK(named == 10, "and the message names the ten roles that are missing");
+    printf("# %s\n", r.e.text);
+    rig_close(&r);
+}
+
+/* A role file against the nameless rig. */
+static void test_file(const char *text, const char *wanted, int line, int column) {
+    const char *path = in_folder("roles");
+    Rig r;
+    write_text(path, text);
+    bool good = rig_roles(&r, "tests/data/figure/biped.bvh", path);
+    if (!wanted) {
+        OK(good, "accepted: %.30s", text);
+        if (!good) printf("# %s\n", r.e.text);
+    } else {
+        OK(!good && r.e.kind == ERR_INPUT && strstr(r.e.text, wanted) && r.e.line == line && r.e.column == column,
+           "refused: %s", wanted);
+        if (!good) printf("# %s at %d:%d\n", r.e.text, r.e.line, r.e.column);
+    }
+    rig_close(&r);
+}
+
+static void test_role_files(void) {
+    Rig r;
+    const char *path = in_folder("roles");
+    write_text(path, "# by hand\nchest = Bip01 Spine1   # names with blanks\nneck=none\n\n  left_toe   =   none\n");
+    OK(rig_roles(&r, "tests/data/figure/biped.bvh", path), "a role file is read");
+    OK(strcmp(rig_joint(&r, ROLE_CHEST), "Bip01 Spine1") == 0, "it settles the chest");
+    OK(r.roles.joint[ROLE_NECK] < 0 && r.roles.joint[ROLE_LEFT_TOE] < 0, "'none' removes a role");
+    OK(strcmp(rig_joint(&r, ROLE_LEFT_THIGH), "Bip01 L Thigh") == 0, "what it does not name is found as before");
+    rig_close(&r);
+
+    test_file("", NULL, 0, 0);
+    test_file("spine = Bip01 Spine1\n", NULL, 0, 0);
+    test_file("head = Bip01 Hed\n", "did you mean 'Bip01 Head'?", 1, 8);
+    test_file("\nleft_tigh = Bip01 L Thigh\n", "did you mean 'left_thigh'?", 2, 1);
+    test_file("zzzzzzzzzzzzzz = Bip01 L Thigh\n", "unknown role", 1, 1);
+    test_file("head = Bip01 Head\nhead = Bip01 Head\n", "given twice", 2, 1);
+    test_file("head Bip01 Head\n", "expected 'role = joint'", 1, 1);
+    test_file("head =\n", "no joint for role", 1, 7);
+    test_file("chest = Bip01 Head\nhead = Bip01 Head\n", "plays two roles", 0, 0);
+    test_file("left_shin = none\n", "missing roles: left_shin", 0, 0);
+}
+
+int main(void) {
+    if (!folder_make()) return 1;
+    test_names();
+    test_families();
+    test_nameless();
+    test_refused();
+    test_role_files();
+    folder_remove();
+    return tap_done();
+}
