@@ -38,7 +38,7 @@ SHOW   = motions/paper-walk.bvh --garment garments/skirt.garment
 
 # A word for each command; make V=1 shows them whole.
 Q      = $(if $(V),,@)
-SAY    = @$(if $(V),:,echo)
+SAY    = @$(if $(V)$(findstring s,$(firstword -$(MAKEFLAGS))),:,echo)
 
 all: build/$(NAME)				## build the program (BUILD=release|debug|san)
 

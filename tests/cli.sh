@@ -35,6 +35,16 @@ for command in $commands; do
     like "--help lists $command" "$("$KITSUKE" --help)" "^  $command "
 done
 
+in_readme() {
+    for command in $commands; do
+        for name in $(sed -n 's/^  \(-.,\|   \) --\([a-z-]*\).*/\2/p' help.$command); do
+            grep -q -e "\`--$name\`" "$root/README.md" && continue
+            case $name in help | version) ;; *) echo "README.md says nothing of --$name"; return 1 ;; esac
+        done
+    done
+}
+ok 'the README names every option' in_readme
+
 # Every option with a value that is no name of a file, as the help lists them.
 nonsense() {
     for command in $commands; do

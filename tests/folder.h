@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 static char folder[] = "/tmp/kitsuke-unit-XXXXXX";
 
@@ -27,6 +28,14 @@ static inline const char *in_folder(const char *name) {
     turn = !turn;
     snprintf(path[turn], sizeof path[turn], "%s/%s", folder, name);
     return path[turn];
+}
+
+/* A link in the folder to a device. Tests write to the link: as root a broken writer would
+   replace what it is given, and that must not be the device itself. */
+static inline const char *link_to(const char *device, const char *name) {
+    const char *path = in_folder(name);
+    remove(path);
+    return symlink(device, path) == 0 ? path : NULL;
 }
 
 #endif

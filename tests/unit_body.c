@@ -226,6 +226,23 @@ static void test_patches(const Body *b) {
     OK(inward == 0, "du x dw is the outward normal");
 }
 
+static bool between(double x, double a, double b) { return x >= fmin(a, b) - 1e-12 && x <= fmax(a, b) + 1e-12; }
+
+/* Between two sections every value stays between theirs. */
+static void test_monotone(const Body *b) {
+    int outside = 0;
+    for (int i = 0; i < b->nparts; i++)
+        for (int k = 0; k + 1 < b->part[i].nsections; k++)
+            for (int j = 0; j <= 20; j++) {
+                Section low = b->part[i].section[k], high = b->part[i].section[k + 1];
+                Section s = body_section_at(&b->part[i], low.at + (high.at - low.at) * j / 20, NULL);
+                outside += !between(s.x, low.x, high.x) || !between(s.z, low.z, high.z) ||
+                           !between(s.side, low.side, high.side) || !between(s.front, low.front, high.front) ||
+                           !between(s.back, low.back, high.back);
+            }
+    OK(outside == 0, "sections are joined without overshoot");
+}
+
 /* --- proportions --- */
 
 static Box box_of(const Body *b) {
@@ -234,11 +251,17 @@ static Box box_of(const Body *b) {
     return box;
 }
 
-/* How far the nearest vertex of part b is from the mirror image of a point. */
-static double mirror_gap(const Body *body, const BodyPart *b, Vec3 p) {
+static Vec3 centroid(const Mesh *m, int triangle) {
+    const int *v = m->triangle[triangle].v;
+    return vec_scale(vec_add(vec_add(m->position[v[0]], m->position[v[1]]), m->position[v[2]]), 1.0 / 3);
+}
+
+/* How far the nearest triangle of part b is from the mirror image of a triangle. */
+static double mirror_gap(const Mesh *m, const BodyPart *b, int triangle) {
+    Vec3 p = centroid(m, triangle);
     double nearest = INFINITY;
-    for (int i = b->first_vertex; i < b->first_vertex + b->nvertices; i++) {
-        Vec3 q = body->skin.position[i];
+    for (int i = b->first_triangle; i < b->first_triangle + b->ntriangles; i++) {
+        Vec3 q = centroid(m, i);
         nearest = fmin(nearest, vec_dist(p, vec(-q.x, q.y, q.z)));
     }
     return nearest;
@@ -252,10 +275,10 @@ static void test_symmetry(const Body *b) {
     double worst = 0;
     for (int i = 0; i < 7; i++) {
         const BodyPart *part = part_of(b, left[i]);
-        for (int k = part->first_vertex; k < part->first_vertex + part->nvertices; k++)
-            worst = fmax(worst, mirror_gap(b, part_of(b, right[i]), b->skin.position[k]));
+        for (int k = part->first_triangle; k < part->first_triangle + part->ntriangles; k++)
+            worst = fmax(worst, mirror_gap(&b->skin, part_of(b, right[i]), k));
     }
-    OK(worst < 1e-12, "the right side mirrors the left (%.2g m)", worst);
+    OK(worst < 1e-12, "the right side mirrors the left, triangle by triangle (%.2g m)", worst);
 }
 
 static void test_adult(const Body *b) {
@@ -313,6 +336,12 @@ static void test_waist(const Body *b) {
     OK(worst < -0.005, "below the waist a bending abdomen stays inside the pelvis (%.1f mm)", 1e3 * worst);
 }
 
+static double lowest(const Body *b, const BodyPart *part) {
+    double y = INFINITY;
+    for (int i = 0; i < part->nvertices; i++) y = fmin(y, b->skin.position[part->first_vertex + i].y);
+    return y;
+}
+
 static void test_sizes(void) {
     static Body child, tall;
     Figure small = figure_of_height(1.10), large = figure_of_height(2.00);
@@ -326,6 +355,12 @@ static void test_sizes(void) {
     NEAR(small_thigh.side / large_thigh.side, 0.55, 0.01, "thighs are as the heights");
     NEAR(box_of(&child).low.y, 0, 0.002, "the child stands on the floor");
     NEAR(box_of(&tall).low.y, 0, 0.003, "so does the tall adult");
+    Figure high = figure_reference();
+    for (int r = ROLE_LEFT_FOOT; r <= ROLE_RIGHT_FOOT; r += ROLE_RIGHT_FOOT - ROLE_LEFT_FOOT)
+        high.start[r].y = high.end[r - 1].y = 0.105;
+    static Body stilts;
+    if (OK(fit(&high, 16, &stilts), "high ankles fit"))
+        NEAR(lowest(&stilts, part_of(&stilts, ROLE_LEFT_FOOT)), 0, 0.004, "and their feet stand on the floor");
     Figure lanky = figure_reference();
     for (int r = ROLE_LEFT_FOREARM; r <= ROLE_RIGHT_FOREARM; r += ROLE_RIGHT_FOREARM - ROLE_LEFT_FOREARM)
         lanky.end[r] = vec_mad(lanky.end[r], vec_sub(lanky.end[r], lanky.start[r]), 0.5);
@@ -356,6 +391,10 @@ static void test_hips(void) {
             crossing = fmax(crossing, s.side - rigid_apply(thigh->frame, vec(s.x, 0, 0)).x);
         }
         OK(crossing < 0.002, "%s hips: the thighs do not run into each other (%.1f mm)", name, 1e3 * crossing);
+        double most = 0;
+        for (int k = 0; k < pelvis->nsections; k++) most = fmax(most, pelvis->section[k].side);
+        OK(wide ? most > 0.185 && most < 0.21 : most > 0.15 && most < 0.165, "%s hips: the pelvis is %.3f m wide", name,
+           2 * most);
         OK(distance_in_stance(pelvis, thigh->frame.t) < -0.02,
            "%s hips: the thigh begins inside the pelvis", name);
     }
@@ -436,6 +475,7 @@ int main(void) {
         test_distance(&reference);
         test_bounds(&reference);
         test_patches(&reference);
+        test_monotone(&reference);
         test_symmetry(&reference);
         test_adult(&reference);
         test_joints(&reference);

@@ -43,6 +43,20 @@ static void test_round_trip(void) {
     free(second);
 }
 
+/* garments/adult.body is a comment and then what body_write makes of the compiled-in adult. */
+static void test_shipped_adult(void) {
+    static BodySpec shipped;
+    Arena arena = {0};
+    Error e = {0};
+    Text text = {0};
+    char *adult = written(body_default());
+    OK(body_read("garments/adult.body", &arena, &shipped, &e), "garments/adult.body is read %s", e.text);
+    OK(memcmp(&shipped, body_default(), sizeof shipped) == 0, "it is the compiled-in adult");
+    OK(text_read("garments/adult.body", 1 << 20, &arena, &text, &e) && strstr(text.data, adult), "as body_write writes it");
+    free(adult);
+    arena_free(&arena);
+}
+
 static void test_bad_text(void) {
 #define HEAD "body b\npart neck\n"
 #define TWO "section 0 0 0 .1 .1 .1\nsection 1 0 0 .1 .1 .1\n"
@@ -99,6 +113,7 @@ static void test_bad_text(void) {
 
 int main(void) {
     test_round_trip();
+    test_shipped_adult();
     test_bad_text();
     return tap_done();
 }

@@ -60,8 +60,9 @@ void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult 
 /* Fills what the solution amounts to: active, pinched, displacement. */
 void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
 
-/* Unit normal of the displaced patches at a mesh vertex (analytic; offsets left out). */
-Vec3 push_normal(const Push *p, const Patch *root, const Sheet *sheet, int vertex);
+/* Unit normals of the displaced patches at the mesh's vertices (analytic). Where offsets bend the
+   mesh away from its patches, the mean of the facets round the vertex, weighted by area. */
+void push_normals(const Push *p, const Patch *root, const Sheet *sheet, const Vec3 *position, Vec3 *normal);
 
 /* The distance that cloth keeps from the body, metres on a figure of 1.70 m. */
 #define PUSH_MARGIN 0.003

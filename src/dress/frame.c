@@ -141,9 +141,9 @@ static void final_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Res
 static void fill_mesh(Dresser *d, Mesh *mesh) {
     const Sheet *s = &d->sheet;
     int n = d->lattice.side + 1;
+    push_normals(&d->push, d->root, s, d->position, d->normal);
     for (int v = 0; v < s->nvertices; v++) {
         int owner = d->lattice.owner[s->place[v]];
-        d->normal[v] = push_normal(&d->push, d->root, s, v);
         d->u[v] = (double)(owner / n % n) / d->lattice.side;
         d->w[v] = (double)(owner % n) / d->lattice.side;
     }

@@ -15,6 +15,7 @@ enum { SWEEPS_MAX = 30, STALL = 5, ROUNDS_MAX = 3, SETTLES_MAX = 4 };
 static const double REACH = 0.04;       /* vertices farther from the body are not swept */
 static const double SLACK = 0.1;        /* share of the clearance that may be missing after sweeps */
 static const double LIPSCHITZ = 0.8;    /* distances are of first order: trust this share of a slack */
+static const double AGREEMENT = 0.7;    /* cosine: an analytic normal farther off its facets is not used */
 static const double FADE = 0.8;         /* of the carried displacement, in 1/30 s */
 static const double FELT = 0.0002;      /* a carried displacement below this is dropped */
 static const double PIN_GIVES = 0.2;    /* a pinned level vertex moves this share of what a free one would */
@@ -101,14 +102,24 @@ static Vec3 global_point(const Lattice *l, const Patch *root, int place) {
     return sum;
 }
 
-/* The field at a place: the sum over all levels (without the offset). */
-static Vec3 field(const Push *p, int place) {
+/* Levels (bit 1 << level) at which anything is displaced: most frames have none or few. */
+static unsigned levels_used(const Push *p) {
+    unsigned used = 0;
+    for (int level = 0; level <= p->lattice->depth; level++)
+        for (int k = p->start[level]; k < p->start[level + 1] && !(used >> level & 1); k++)
+            if (!is_zero(p->displacement[k])) used |= 1u << level;
+    return used;
+}
+
+/* The field at a place: the sum over the levels in use (without the offset). */
+static Vec3 field(const Push *p, unsigned levels, int place) {
     const Lattice *l = p->lattice;
     int patch, i, j, vertex[4];
     double weight[4];
     Vec3 d = {0, 0, 0};
     owner_of(l, place, &patch, &i, &j);
-    for (int level = 0; level <= l->depth; level++) {
+    for (int level = 0; levels >> level; level++) {
+        if (!(levels >> level & 1)) continue;
         lattice_weights(l, level, patch, i, j, vertex, weight, NULL, NULL);
         for (int k = 0; k < 4; k++) d = vec_mad(d, p->displacement[p->start[level] + vertex[k]], weight[k]);
     }
@@ -134,6 +145,14 @@ static void find_lengths(Push *p, const BodyFrame *body) {
         double bent = smoothstep(60 * PI / 180, 95 * PI / 180, flexion);
         double whole = body->body->part[k].high, inside = fmax(0, fit->below_knee) + 0.03 * p->scale;
         if (bent > 0) p->length[k] = whole + bent * (inside - whole);
+    }
+}
+
+static void find_points(Push *p, const Sheet *sheet) {
+    unsigned levels = levels_used(p);
+    for (int v = 0; v < sheet->nvertices; v++) {
+        Vec3 d = field(p, levels, sheet->place[v]);
+        p->point[v] = vec_add(vec_add(p->global[v], p->offset[sheet->place[v]]), d);
     }
 }
 
@@ -175,8 +194,8 @@ static void add_sample(Push *p, const Sheet *sheet, int vertex, unsigned near) {
 static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
     double far = (PUSH_MARGIN + REACH) * p->scale;
     p->nsamples = 0;
+    find_points(p, sheet);
     for (int v = 0; v < sheet->nvertices; v++) {
-        p->point[v] = vec_add(vec_add(p->global[v], p->offset[sheet->place[v]]), field(p, sheet->place[v]));
         unsigned near = parts_near(p, body, sheet->place[v], p->point[v], far);
         if (near) add_sample(p, sheet, v, near);
     }
@@ -289,8 +308,7 @@ void push_solve(Push *p, const Patch *root, const BodyFrame *body, const Leaves 
         double moved = sweep_all(p, body, sheet, result);
         if (moved < REACH * p->scale) break; /* nobody can have come near who was not */
     }
-    for (int v = 0; v < sheet->nvertices; v++)
-        p->point[v] = vec_add(vec_add(p->global[v], p->offset[sheet->place[v]]), field(p, sheet->place[v]));
+    find_points(p, sheet);
     for (int k = 0; k < p->nsamples; k++) settle_vertex(p, body, sheet, p->sample[k].vertex, p->sample[k].near, &result->capped);
 }
 
@@ -320,13 +338,19 @@ void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, Push
     }
 }
 
-Vec3 push_normal(const Push *p, const Patch *root, const Sheet *sheet, int vertex) {
+/* Derivatives of the displaced patch at a place, by the parameters of its owner. */
+static Vec3 analytic_normal(const Push *p, const Patch *root, unsigned levels, int place) {
     const Lattice *l = p->lattice;
     int patch, i, j, id[4];
-    owner_of(l, sheet->place[vertex], &patch, &i, &j);
-    Vec3 du, dw;
-    bezier_point(&root[patch], (double)i / l->side, (double)j / l->side, &du, &dw);
-    for (int level = 0; level <= l->depth; level++) {
+    owner_of(l, place, &patch, &i, &j);
+    Vec3 du = {0, 0, 0}, dw = {0, 0, 0};
+    for (int a = 0; a < 4; a++)
+        for (int b = 0; b < 4; b++) {
+            du = vec_mad(du, root[patch].p[a][b], l->basis_slope[i][a] * l->basis[j][b]);
+            dw = vec_mad(dw, root[patch].p[a][b], l->basis[i][a] * l->basis_slope[j][b]);
+        }
+    for (int level = 0; levels >> level; level++) {
+        if (!(levels >> level & 1)) continue;
         double weight[4], wu[4], ww[4];
         lattice_weights(l, level, patch, i, j, id, weight, wu, ww);
         for (int k = 0; k < 4; k++) {
@@ -335,7 +359,19 @@ Vec3 push_normal(const Push *p, const Patch *root, const Sheet *sheet, int verte
         }
     }
     Vec3 n = vec_cross(du, dw);
-    if (vec_len(n) < 1e-12) n = bezier_normal(&root[patch], (double)i / l->side, (double)j / l->side);
-    n = vec_unit_or(n, vec(0, 1, 0));
     return l->fit->patch[patch].flip ? vec_scale(n, -1) : n;
+}
+
+void push_normals(const Push *p, const Patch *root, const Sheet *sheet, const Vec3 *position, Vec3 *normal) {
+    unsigned levels = levels_used(p);
+    for (int v = 0; v < sheet->nvertices; v++) normal[v] = vec(0, 0, 0);
+    for (int t = 0; t < sheet->ntriangles; t++) {
+        const int *v = sheet->triangle[t].v;
+        Vec3 n = vec_cross(vec_sub(position[v[1]], position[v[0]]), vec_sub(position[v[2]], position[v[0]]));
+        for (int c = 0; c < 3; c++) normal[v[c]] = vec_add(normal[v[c]], n);
+    }
+    for (int v = 0; v < sheet->nvertices; v++) {
+        Vec3 faces = vec_unit_or(normal[v], vec(0, 1, 0)), smooth = vec_unit_or(analytic_normal(p, root, levels, sheet->place[v]), faces);
+        normal[v] = vec_dot(smooth, faces) > AGREEMENT ? smooth : faces;
+    }
 }

@@ -1,6 +1,6 @@
 /* The compiled-in adult: 1.70 m, 7.5 heads tall, as an artist's mannequin. Girths are those of
-   a slim person of either sex; the torso is flat in front and round behind. Edit it as text:
-   `kitsuke inspect` prints it in the format of a body file. */
+   a slim person of either sex; the torso is flat in front and round behind. The same as text,
+   to be edited: garments/adult.body. */
 #include "figure/body.h"
 
 /* Cap heights (0: a half ball), then sections: at, x, z, side, front, back. Limbs are given for

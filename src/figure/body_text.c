@@ -15,7 +15,7 @@ static const double AT_LIMIT = 10, CENTRE_LIMIT = 1, SIZE_LIMIT = 1, SIZE_LEAST 
 static const double AT_STEP = 1e-3;
 
 static const char *const COLUMNS[] = {"at", "x", "z", "side", "front", "back"};
-enum { COLUMN_COUNT = 6 };
+enum { COLUMN_COUNT = 6, COLUMN_WIDTH = 6 };
 
 static double *column_of(Section *s, int i) {
     double *column[COLUMN_COUNT] = {&s->at, &s->x, &s->z, &s->side, &s->front, &s->back};
@@ -91,6 +91,7 @@ static bool read_section(const Line *line, BodyPartSpec *part, Error *e) {
             return text_error(line, i + 1, e, "a section needs at, x, z, side, front, back; '%s' is missing",
                               COLUMNS[i]);
         if (!text_real(line, i + 1, x, e)) return false;
+        if (*x == 0) *x = 0; /* -0 has no mirror image */
         if (fabs(*x) > limit)
             return text_error(line, i + 1, e, "%s must be from %g to %g", COLUMNS[i], i < 3 ? -limit : 0.0, limit);
         if (i >= 3 && *x < SIZE_LEAST)
@@ -164,14 +165,15 @@ bool body_read(const char *path, Arena *scratch, BodySpec *out, Error *e) {
     return text_read(path, BODY_FILE_MAX, scratch, &text, e) && body_parse(&text, out, e);
 }
 
-/* The fewest digits that read back as x: "0.052", not "0.051999999999999998". */
-static void write_number(double x, FILE *out) {
+/* The fewest digits that read back as x: "0.052", not "0.051999999999999998". At least `width`
+   bytes, so that columns stand under each other. */
+static void write_number(double x, int width, FILE *out) {
     char digits[40];
     for (int precision = 1; precision <= 17; precision++) {
         snprintf(digits, sizeof digits, "%.*g", precision, x);
         if (strtod(digits, NULL) == x) break;
     }
-    fprintf(out, " %s", digits);
+    fprintf(out, " %*s", width, digits);
 }
 
 static bool same_part(const BodyPartSpec *a, const BodyPartSpec *b) {
@@ -195,27 +197,27 @@ static bool is_mirror(const BodySpec *body, int i) {
     return false;
 }
 
+static void write_part(const BodyPartSpec *part, FILE *out) {
+    fprintf(out, "\npart %s\n#      ", role_name(part->role));
+    for (int j = 0; j < COLUMN_COUNT; j++) fprintf(out, " %*s", COLUMN_WIDTH, COLUMNS[j]);
+    for (int k = 0; k < part->nsections; k++) {
+        Section s = part->section[k];
+        fprintf(out, "\nsection");
+        for (int j = 0; j < COLUMN_COUNT; j++) write_number(*column_of(&s, j), COLUMN_WIDTH, out);
+    }
+    if (part->cap[0] > 0 || part->cap[1] > 0) {
+        fprintf(out, "\ncaps");
+        write_number(part->cap[0], 0, out);
+        write_number(part->cap[1], 0, out);
+    }
+    fprintf(out, "\n");
+}
+
 bool body_write(const BodySpec *body, FILE *out) {
     fprintf(out, "body %s\n", body->name);
     for (int i = 0; i < body->nparts; i++) {
-        const BodyPartSpec *part = &body->part[i];
-        if (is_mirror(body, i)) {
-            fprintf(out, "\nmirror %s\n", role_name(part->role));
-            continue;
-        }
-        fprintf(out, "\npart %s\n#       at x z side front back\n", role_name(part->role));
-        for (int k = 0; k < part->nsections; k++) {
-            Section s = part->section[k];
-            fprintf(out, "section");
-            for (int j = 0; j < COLUMN_COUNT; j++) write_number(*column_of(&s, j), out);
-            fprintf(out, "\n");
-        }
-        if (part->cap[0] > 0 || part->cap[1] > 0) {
-            fprintf(out, "caps");
-            write_number(part->cap[0], out);
-            write_number(part->cap[1], out);
-            fprintf(out, "\n");
-        }
+        if (is_mirror(body, i)) fprintf(out, "\nmirror %s\n", role_name(body->part[i].role));
+        else write_part(&body->part[i], out);
     }
     return !ferror(out);
 }
