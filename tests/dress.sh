@@ -8,7 +8,8 @@ trousers=$root/garments/trousers.garment
 
 dress() { "$KITSUKE" dress -q --no-times "$@"; }
 column() { # column NAME FILE
-    awk -F, -v name="$1" '/^#/ { next } at { print $at; next } { for (i = 1; i <= NF; i++) if ($i == name) at = i }' "$2"
+    awk -F, -v name="$1" '/^#/ { next } at { print $at; next }
+        { for (i = 1; i <= NF; i++) if ($i == name) at = i }' "$2"
 }
 joined() { column "$@" | tr '\n' ' '; }
 list() { (cd "$1" && find . -type f | sort | tr '\n' ' '); }
