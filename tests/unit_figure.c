@@ -79,6 +79,7 @@ static void test_reference(void) {
 static const char *const families[] = {
     "smpl", "unity", "vrm", "xsens", "rigify", "genesis", "neuron", "acclaim_names", "optitrack", "kinect", "mmd",
     "opensim", "nameless", "lafan1", "unreal", "biped", "cat", "nameless_axis",
+    "swapped", "weapon", "zero_offsets", "chest_root", "nameless_split",
 };
 
 /* The largest angle between a bone of two poses, over the frames. Only limb bones have a direction
@@ -146,6 +147,49 @@ static void test_families(void) {
         rig_close(&r);
     }
     rig_close(&one);
+}
+
+/* ---- size ---- */
+
+/* Writes mixamo.bvh with every length multiplied: OFFSETs and the three position channels. */
+static void write_scaled(const char *path, double factor) {
+    FILE *in = fopen("tests/data/figure/mixamo.bvh", "r"), *out = fopen(path, "w");
+    char line[4096];
+    bool motion = false;
+    while (fgets(line, sizeof line, in)) {
+        double x, y, z;
+        int used = 0;
+        const char *offset = strstr(line, "OFFSET");
+        if (offset && sscanf(offset, "OFFSET %lf %lf %lf", &x, &y, &z) == 3)
+            fprintf(out, "OFFSET %.9g %.9g %.9g\n", x * factor, y * factor, z * factor);
+        else if (motion && sscanf(line, "%lf %lf %lf %n", &x, &y, &z, &used) == 3)
+            fprintf(out, "%.9g %.9g %.9g %s", x * factor, y * factor, z * factor, line + used);
+        else
+            fputs(line, out);
+        if (strstr(line, "Frame Time")) motion = true;
+    }
+    fclose(in);
+    fclose(out);
+}
+
+static void test_units(void) {
+    /* mixamo.bvh is 175.7 cm tall. */
+    static const struct { double factor; const char *unit; double stature; } cases[] = {
+        {1, "cm", 1.757}, {0.01, "m", 1.757}, {10, "mm", 1.757}, {0.1, "dm", 1.757}, {1 / 2.54, "inch", 1.757},
+        {1 / 30.48, "foot", 1.757}, {0.45 / 2.54, "5.644 cm", 1.757},
+        {0.6, "cm", 1.054}, {0.006, "m", 1.054}, /* a child */
+        {0.82, "cm", 1.441}, {1.19, "cm", 2.091}, /* the smallest and the tallest adult */
+        {3, "unknown", 1.703}, {1e-4, "unknown", 1.703}, {1e5, "unknown", 1.703},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const char *path = in_folder("scaled.bvh");
+        Rig r;
+        write_scaled(path, cases[i].factor);
+        OK(rig_open(&r, path, NULL), "a skeleton %g times as large", cases[i].factor);
+        OK(strcmp(r.figure.unit_name, cases[i].unit) == 0, "has unit %s", r.figure.unit_name);
+        NEAR(r.figure.height, cases[i].stature, 0.01, "and stature");
+        rig_close(&r);
+    }
 }
 
 static void test_options(void) {
@@ -317,6 +361,7 @@ int main(void) {
     if (!folder_make()) return 1;
     test_reference();
     test_families();
+    test_units();
     test_options();
     test_upright();
     for (int i = 0; i < (int)(sizeof real / sizeof real[0]); i++) test_real(i);

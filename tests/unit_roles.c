@@ -156,8 +156,9 @@ static void test_nameless(void) {
     static const struct { const char *file; int left_arm, right_arm, left_leg, right_leg; } rigs[] = {
         {"tests/data/figure/nameless.bvh", 20, 10, 16, 6},
         {"tests/data/figure/nameless_axis.bvh", 9, 19, 5, 15},
+        {"tests/data/figure/nameless_tpose.bvh", 20, 10, 16, 6},
     };
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 3; i++) {
         Rig r;
         int wrong = !rig_roles(&r, rigs[i].file, NULL);
         for (int k = 0; k < 4 && !wrong; k++) {
@@ -226,7 +227,36 @@ static void test_refused(void) {
     rig_close(&r);
 }
 
-/* A role file against the nameless rig. */
+static void test_not_human(void) {
+    Rig r;
+    bool good = rig_roles(&r, "tests/data/figure/hand.bvh", NULL);
+    OK(!good && r.e.kind == ERR_INPUT, "a hand is refused, though it has pairs of fingers");
+    rig_close(&r);
+    good = rig_roles(&r, "tests/data/figure/legs_only.bvh", NULL);
+    OK(!good && strstr(r.e.text, "roles: chest, left_upper_arm, left_forearm, right_upper_arm, right_forearm"),
+       "legs alone are refused, and only what is missing is named");
+    rig_close(&r);
+}
+
+static void test_oddities(void) {
+    Rig r;
+    OK(rig_roles(&r, "tests/data/figure/swapped.bvh", NULL) &&
+           strcmp(rig_joint(&r, ROLE_LEFT_THIGH), "RightUpLeg") == 0 &&
+           strcmp(rig_joint(&r, ROLE_RIGHT_HAND), "LeftHand") == 0 && r.notes.count == 1,
+       "left and right go by feet and knees where names say the opposite, with a note");
+    rig_close(&r);
+    OK(rig_roles(&r, "tests/data/figure/nameless_split.bvh", NULL) &&
+           strcmp(rig_joint(&r, ROLE_LEFT_FOREARM), "j29") == 0 &&
+           strcmp(rig_joint(&r, ROLE_LEFT_HAND), "j31") == 0 && strcmp(rig_joint(&r, ROLE_RIGHT_SHIN), "j8") == 0,
+       "split bones without names");
+    rig_close(&r);
+    OK(rig_roles(&r, "tests/data/figure/chest_root.bvh", NULL) && strcmp(rig_joint(&r, ROLE_PELVIS), "Hips") == 0 &&
+           strcmp(rig_joint(&r, ROLE_HEAD), "Head") == 0,
+       "a tree that hangs from the chest");
+    rig_close(&r);
+}
+
+/* A role file against the biped. */
 static void test_file(const char *text, const char *wanted, int line, int column) {
     const char *path = in_folder("roles");
     Rig r;
@@ -271,6 +301,8 @@ int main(void) {
     test_families();
     test_nameless();
     test_refused();
+    test_not_human();
+    test_oddities();
     test_role_files();
     folder_remove();
     return tap_done();

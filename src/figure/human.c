@@ -10,8 +10,9 @@ enum { PAIRS = 8 };
    against the leg (thigh + shin). */
 static const double ARM_BY_LEG = 0.66, TORSO_BY_LEG = 0.62;
 static const double ODD_LENGTHS = 4, LEGS_DOWN = 6, NO_HEAD = 3, STATURE_BY_LIMBS = 1.70 / 1.305;
-/* Points below which two pairs are no human. A skeleton without any name gets about 25. */
-static const double HUMAN = 10, PAIR_ALONE = 30;
+/* Points below which two pairs are no human: without any name one gets about 35, with names 150.
+   And below which a pair alone is not worth a word. */
+static const double HUMAN = 20, PAIR_ALONE = 30;
 
 static double square(double x) { return x * x; }
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum {
-    DEPTH_MAX = 18,    /* joints of a chain that are looked at, hub to fingertip */
+    DEPTH_MAX = 12,    /* joints of a chain that are looked at: split arms reach the wrist at the eighth */
     START_MAX = 5,     /* a limb begins at most so many joints below the hub */
     CHILDREN_MAX = 12, /* children of a hub that are tried */
 };
