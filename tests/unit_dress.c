@@ -202,22 +202,24 @@ static void meshes_are_watertight(Scene *s, const char *name, int openings) {
     OK(leaves_add_up, "%s: leaves number patches + 3 splits", name);
 }
 
+/* Distance of a point from the parts that a patch collides with, in the canonical stance. */
+static double from_body(const Scene *s, const FitPatch *patch, Vec3 x) {
+    double nearest = INFINITY;
+    for (int b = 0; b < s->body.nparts; b++) {
+        const BodyPart *part = &s->body.part[b];
+        if (patch->collide >> part->role & 1) nearest = fmin(nearest, body_distance(part, rigid_unapply(part->frame, x), 1, NULL));
+    }
+    return nearest;
+}
+
 static void outward(Scene *s, const char *name) {
     Pose rest = figure_rest_pose();
     follow_pose(&s->follower, &rest, s->root);
     int inwards = 0;
     for (int p = 0; p < s->fit.npatches; p++) {
         Vec3 x = bezier_point(&s->root[p], 0.5, 0.5, NULL, NULL), n = bezier_normal(&s->root[p], 0.5, 0.5);
-        if (s->fit.patch[p].flip) n = vec_scale(n, -1);
-        double nearest = INFINITY, towards = 0;
-        for (int b = 0; b < s->body.nparts; b++) {
-            if (!(s->fit.patch[p].collide >> s->body.part[b].role & 1)) continue;
-            const BodyPart *part = &s->body.part[b];
-            Vec3 normal, local = rigid_unapply(part->frame, x);
-            double d = body_distance(part, local, 1, &normal);
-            if (d < nearest) nearest = d, towards = vec_dot(mat_apply(part->frame.r, normal), n);
-        }
-        inwards += towards < 0;
+        double step = s->fit.patch[p].flip ? -0.02 : 0.02;
+        inwards += from_body(s, &s->fit.patch[p], vec_mad(x, n, step)) <= from_body(s, &s->fit.patch[p], vec_mad(x, n, -step));
     }
     OK(inwards == 0, "%s: all %d patches face away from the body", name, s->fit.npatches);
 }
