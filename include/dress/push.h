@@ -28,7 +28,6 @@ typedef struct {
     Mat3 pelvis;                      /* of the frame that the displacement belongs to */
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
     double *clearance;                /* per mesh vertex: distance asked for */
-    double length[BODY_PARTS_MAX];    /* of each part along its bone, as far as it counts here */
     PushSample *sample;
     int nsamples;
     int *raised, nraised;             /* mesh vertices that were asked for more */
@@ -46,10 +45,12 @@ MUST_CHECK bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Erro
    is still felt keeps its cells split. restart: forget it. */
 void push_carry(Push *p, const BodyFrame *body, double dt, bool restart, Leaves *leaves);
 
-/* Displaces the vertices of the sheet until they keep their clearance (projection onto half
-   spaces, METHOD 4.3): the global shape from the root patches, then sweeps. */
-void push_solve(Push *p, const Patch *root, const BodyFrame *body, const Leaves *leaves, const Sheet *sheet,
-                PushResult *result);
+/* Evaluates the global shape from the root patches at the vertices of the sheet. */
+void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *sheet);
+
+/* Displaces the vertices of the sheet until they keep their clearance: projection onto half
+   spaces, in sweeps. May be called again after push_raise; adds to *result. */
+void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
 
 /* Asks for more clearance at a vertex (chords of a facet can cut the body although its corners
    are outside), then push_settle moves those vertices alone. Returns false where the most is

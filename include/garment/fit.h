@@ -58,9 +58,6 @@ typedef struct {
     FitRing ring[GARMENT_RINGS_MAX];
     Vec3 (*raw)[16];   /* control points of raw patches, sized to the figure */
     unsigned collide;  /* all parts that any patch collides with */
-    unsigned own;      /* those of them that nothing may show of: all, but for a loose garment's
-                          shins, which reach out of it behind a bent knee */
-    double below_knee; /* metres that the lowest ring reaches below the knee; may be negative */
 } Fit;
 
 /* Names of the four control points along a side, in the direction of growing u or w. */

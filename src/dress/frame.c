@@ -14,7 +14,10 @@
 #include "dress/push.h"
 #include "dress/residual.h"
 
-enum { DETAIL_DEFAULT = 8, DEPTH_DEFAULT = 2, ROUNDS_MAX = 8 };
+enum { DETAIL_DEFAULT = 8, DEPTH_DEFAULT = 2 };
+/* Rounds of asking for more distance; every third time the whole surface gives way, not only the
+   vertices that were asked. */
+enum { ROUNDS_MAX = 9, SOLVE_EVERY = 3 };
 static const double RAISE = 0.0015; /* metres of clearance added where an edge still crosses, on 1.70 m */
 
 struct Dresser {
@@ -85,7 +88,7 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
 static void snap_points(Dresser *d, double unit) {
     for (int v = 0; v < d->sheet.nvertices; v++) {
         Vec3 p = vec_scale(d->push.point[v], unit);
-        d->own[v] = d->lattice.collide[d->sheet.place[v]] & d->fit.own;
+        d->own[v] = d->lattice.collide[d->sheet.place[v]];
         d->position[v] = vec(mesh_snap(p.x), mesh_snap(p.y), mesh_snap(p.z));
     }
     tester_build(&d->tester, d->position, d->sheet.edge, d->sheet.nedges, d->sheet.triangle, d->sheet.ntriangles, d->own);
@@ -94,9 +97,10 @@ static void snap_points(Dresser *d, double unit) {
 /* Tests the mesh and asks for more distance round everything that still crosses a collider of
    its own, until nothing does or a cap. Crossings of the last round go to *own and *other. */
 static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Residual *own, Residual *other, CrossingCount *count) {
-    PushResult result;
+    PushResult result = {0};
     double start = clock_seconds();
-    push_solve(&d->push, d->root, body, &d->leaves, &d->sheet, &result);
+    push_start(&d->push, d->root, &d->leaves, &d->sheet);
+    push_solve(&d->push, body, &d->sheet, &result);
     stats->push_s += clock_seconds() - start;
     for (int round = 0;; round++) {
         start = clock_seconds();
@@ -112,7 +116,8 @@ static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, 
             stats->capped = true;
             break;
         }
-        push_settle(&d->push, body, &d->sheet, &result);
+        if (round % SOLVE_EVERY == SOLVE_EVERY - 1) push_solve(&d->push, body, &d->sheet, &result);
+        else push_settle(&d->push, body, &d->sheet, &result);
         stats->push_s += clock_seconds() - tested;
     }
     push_measure(&d->push, body, &d->sheet, &result);
@@ -194,5 +199,5 @@ void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, M
 }
 
 DresserInfo dresser_info(const Dresser *d) {
-    return (DresserInfo){.patches = d->fit.npatches, .panels = d->ngroups, .openings = d->fit.nopenings, .own_parts = d->fit.own};
+    return (DresserInfo){.patches = d->fit.npatches, .panels = d->ngroups, .openings = d->fit.nopenings, .own_parts = d->fit.collide};
 }

@@ -126,47 +126,35 @@ static Vec3 field(const Push *p, unsigned levels, int place) {
     return d;
 }
 
-/* Distance from a part as this garment meets it. */
-static double distance(const Push *p, const BodyFrame *body, int part, Vec3 x, double far, Vec3 *normal) {
-    if (p->length[part] < INFINITY && rigid_apply(body->to_part[part], x).y > p->length[part]) return far;
-    return body_frame_distance(body, part, x, far, normal);
+static Vec3 limit(Vec3 d, double cap, bool *capped) {
+    double n = vec_len(d);
+    if (n <= cap) return d;
+    *capped = true;
+    return vec_scale(d, cap / n);
 }
 
-/* The calf behind a strongly bent knee lies outside a skirt: what counts of the shin shrinks, from
-   60 to 95 degrees of flexion, to the length that the skirt has below the knee. */
-static void find_lengths(Push *p, const BodyFrame *body) {
-    static const Role shin[2] = {ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN}, thigh[2] = {ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH};
-    const Fit *fit = p->lattice->fit;
-    for (int part = 0; part < BODY_PARTS_MAX; part++) p->length[part] = INFINITY;
-    for (int leg = 0; leg < 2 && fit->garment->loose; leg++) {
-        int k = body->body->of_role[shin[leg]], t = body->body->of_role[thigh[leg]];
-        if (k < 0 || t < 0) continue;
-        double flexion = acos(clamp(vec_dot(mat_column(body->to_world[k], 1), mat_column(body->to_world[t], 1)), -1, 1));
-        double bent = smoothstep(60 * PI / 180, 95 * PI / 180, flexion);
-        double whole = body->body->part[k].high, inside = fmax(0, fit->below_knee) + 0.03 * p->scale;
-        if (bent > 0) p->length[k] = whole + bent * (inside - whole);
-    }
+/* A vertex displaced by d: never farther than the cap, whatever the levels add up to. */
+static Vec3 displaced(const Push *p, const Sheet *sheet, int vertex, Vec3 d) {
+    bool capped = false;
+    return vec_add(p->global[vertex], limit(vec_add(d, p->offset[sheet->place[vertex]]), p->cap, &capped));
 }
 
 static void find_points(Push *p, const Sheet *sheet) {
     unsigned levels = levels_used(p);
-    for (int v = 0; v < sheet->nvertices; v++) {
-        Vec3 d = field(p, levels, sheet->place[v]);
-        p->point[v] = vec_add(vec_add(p->global[v], p->offset[sheet->place[v]]), d);
-    }
+    for (int v = 0; v < sheet->nvertices; v++) p->point[v] = displaced(p, sheet, v, field(p, levels, sheet->place[v]));
 }
 
 static Vec3 sample_point(const Push *p, const Sheet *sheet, const PushSample *s) {
-    Vec3 x = vec_add(p->global[s->vertex], p->offset[sheet->place[s->vertex]]);
-    for (int k = 0; k < s->n; k++) x = vec_mad(x, p->displacement[s->id[k]], s->weight[k]);
-    return x;
+    Vec3 d = {0, 0, 0};
+    for (int k = 0; k < s->n; k++) d = vec_mad(d, p->displacement[s->id[k]], s->weight[k]);
+    return displaced(p, sheet, s->vertex, d);
 }
 
 /* Parts of the garment's own colliders at a place that lie within `far` of x. */
 static unsigned parts_near(const Push *p, const BodyFrame *body, int place, Vec3 x, double far) {
     unsigned near = 0, collide = p->lattice->collide[place];
     for (int k = 0; k < body->body->nparts; k++)
-        if (collide & part_bit(body, k) && distance(p, body, k, x, far, NULL) < far) near |= 1u << k;
+        if (collide & part_bit(body, k) && body_frame_distance(body, k, x, far, NULL) < far) near |= 1u << k;
     return near;
 }
 
@@ -201,13 +189,6 @@ static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
     }
 }
 
-static Vec3 limit(Vec3 d, double cap, bool *capped) {
-    double n = vec_len(d);
-    if (n <= cap) return d;
-    *capped = true;
-    return vec_scale(d, cap / n);
-}
-
 /* Moves a sample by `depth` along n with the least change of the unknowns. */
 static void project(Push *p, const PushSample *s, Vec3 n, double depth, PushResult *result) {
     double step = depth / fmax(s->norm2, NORM_MIN);
@@ -234,7 +215,7 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
     for (int part = 0; s->near >> part; part++) {
         if (!(s->near >> part & 1)) continue;
         Vec3 n;
-        double depth = clearance - distance(p, body, part, x, clearance + REACH * p->scale, &n);
+        double depth = clearance - body_frame_distance(body, part, x, clearance + REACH * p->scale, &n);
         slack = fmin(slack, SLACK * clearance - depth);
         if (depth <= SLACK * clearance) continue;
         if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->scale;
@@ -283,7 +264,7 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
         for (int part = 0; near >> part; part++) {
             if (!(near >> part & 1)) continue;
             Vec3 n;
-            double depth = p->clearance[vertex] - distance(p, body, part, p->point[vertex], p->clearance[vertex], &n);
+            double depth = p->clearance[vertex] - body_frame_distance(body, part, p->point[vertex], p->clearance[vertex], &n);
             if (depth <= SLACK * p->clearance[vertex]) continue;
             Vec3 longer = limit(vec_mad(*o, n, depth), OFFSET_MAX * p->scale, capped);
             p->point[vertex] = vec_add(p->point[vertex], vec_sub(longer, *o));
@@ -294,15 +275,16 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
     }
 }
 
-void push_solve(Push *p, const Patch *root, const BodyFrame *body, const Leaves *leaves, const Sheet *sheet, PushResult *result) {
-    *result = (PushResult){0};
+void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *sheet) {
     p->nraised = 0;
     find_active(p, leaves);
-    find_lengths(p, body);
     for (int v = 0; v < sheet->nvertices; v++) {
         p->global[v] = global_point(p->lattice, root, sheet->place[v]);
         p->clearance[v] = PUSH_MARGIN * p->scale;
     }
+}
+
+void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
     for (int round = 0; round < ROUNDS_MAX; round++) {
         find_samples(p, body, sheet);
         double moved = sweep_all(p, body, sheet, result);

@@ -460,17 +460,6 @@ static void complete_colliders(Fit *f) {
     for (int p = 0; p < f->npatches; p++) f->collide |= f->patch[p].collide;
     for (int p = 0; p < f->npatches; p++)
         if (!f->patch[p].collide) f->patch[p].collide = f->collide;
-    f->own = f->collide;
-    if (f->garment->loose) f->own &= ~(1u << ROLE_LEFT_SHIN | 1u << ROLE_RIGHT_SHIN);
-}
-
-/* How far below the knee the garment reaches in the canonical stance. */
-static double below_knee(const Tailor *t) {
-    double lowest = INFINITY;
-    for (int k = 0; k < t->fit->nnodes; k++) lowest = fmin(lowest, t->fit->node[k].rest.y);
-    for (int k = 0; k < t->g->npatches; k++)
-        for (int c = 0; c < 16; c++) lowest = fmin(lowest, t->fit->raw[k][c].y);
-    return t->figure->start[ROLE_LEFT_SHIN].y - lowest;
 }
 
 bool fit_garment(const Garment *garment, const Figure *figure, const Body *body, Arena *arena, Fit *out, Error *e) {
@@ -487,7 +476,6 @@ bool fit_garment(const Garment *garment, const Figure *figure, const Body *body,
         for (int k = 0; k + 1 < out->panel[p].nrows; k++) make_panel_patch(&t, p, k);
     if (!make_raw_patches(&t, e) || !sew(&t, e) || !number_points(&t, e)) return false;
     complete_colliders(out);
-    out->below_knee = below_knee(&t);
     int *label = ARENA_NEW(arena, int, out->npoints, e);
     if (!label) return false;
     out->nopenings = count_openings(out, label);
