@@ -207,8 +207,8 @@ static void print_end(const Batch *b) {
         bytes += r->bytes;
     }
     if (b->wardrobe->settings->verbose) print_stages(b, elapsed);
-    fprintf(stderr, "%d of %d motion%s dressed, %lld frames, %lld with residuals, ", done, b->count,
-            b->count == 1 ? "" : "s", frames, residual);
+    fprintf(stderr, "%d of %d motion%s dressed, %lld frame%s, %lld with residuals, ", done, b->count,
+            b->count == 1 ? "" : "s", frames, frames == 1 ? "" : "s", residual);
     print_bytes((double)bytes);
     fprintf(stderr, " in %.1f s (%.0f frames/s)\n", elapsed, elapsed > 0 ? (double)frames / elapsed : 0);
 }

@@ -190,8 +190,8 @@ static bool run(Job *j, const JobWatch *watch, Error *e) {
 static void tell(const Job *j, FILE *about) {
     const Motion *m = &j->motion;
     const Figure *f = &j->figure;
-    fprintf(about, "%s: %s, %d frames at %.5g a second, figure %.2f m, unit %s, %s\n", j->input->name, m->format,
-            m->nframes, 1 / m->frame_time, f->height, f->unit_name, f->rest);
+    fprintf(about, "%s: %s, %d frame%s at %.5g a second, figure %.2f m, unit %s, %s\n", j->input->name, m->format,
+            m->nframes, m->nframes == 1 ? "" : "s", 1 / m->frame_time, f->height, f->unit_name, f->rest);
     for (int g = 0; g < j->wardrobe->ngarments; g++) {
         const SummaryRow *sum = &j->result->row[g];
         fprintf(about, "%s/%s: %d frames, %d with residuals, moved by %.1f cm at most\n", j->input->name,
