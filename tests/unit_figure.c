@@ -224,6 +224,23 @@ static void test_upright(void) {
     }
 }
 
+/* Up is up also of those who never stand. */
+static void test_lying(void) {
+    static const struct { const char *file; char up; double face; } cases[] = {
+        {"tests/data/figure/pushups.bvh", 'y', -1}, {"tests/data/figure/lying.bvh", 'z', 1},
+    };
+    for (int i = 0; i < 2; i++) {
+        Rig r;
+        bool good = rig_open(&r, cases[i].file, NULL) && r.figure.up == cases[i].up;
+        OK(good, "%s: up is %c", cases[i].file, r.figure.up);
+        Pose pose = rig_pose(&r, 5);
+        OK(angle(mat_column(pose.bone[ROLE_CHEST].r, 2), vec(0, cases[i].face, 0)) < 15, "and the chest faces %s",
+           cases[i].face > 0 ? "the sky" : "the floor");
+        OK(angle(mat_column(pose.bone[ROLE_PELVIS].r, 2), vec(0, cases[i].face, 0)) < 15, "and so does the pelvis");
+        rig_close(&r);
+    }
+}
+
 /* ---- real motions ---- */
 
 enum { WALKS = 1, STANDS = 2 }; /* goes ahead; head over pelvis and pelvis upright all the time */
@@ -252,8 +269,8 @@ static const struct { const char *file, *unit; char up; double stature; int habi
     {"bandai1_kick_normal_001_NC.bvh", "cm", 'y', 1.58, STANDS},
     {"bandai1_bow_normal_001_NC.bvh", "cm", 'y', 1.59, STANDS},
     {"bandai2_walk_turn_left_normal_001_NC.bvh", "cm", 'y', 1.58, WALKS | STANDS},
-    {"cmu_02_03_run.amc", "given by the file", 'y', 1.71, WALKS | STANDS},
-    {"cmu_11_01_kick.amc", "given by the file", 'y', 1.78, WALKS | STANDS},
+    {"cmu_02_03_run.amc", "5.644 cm", 'y', 1.71, WALKS | STANDS},
+    {"cmu_11_01_kick.amc", "5.644 cm", 'y', 1.78, WALKS | STANDS},
 };
 
 typedef struct {
@@ -364,6 +381,7 @@ int main(void) {
     test_units();
     test_options();
     test_upright();
+    test_lying();
     for (int i = 0; i < (int)(sizeof real / sizeof real[0]); i++) test_real(i);
     test_same_skeleton();
     test_no_size();

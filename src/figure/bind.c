@@ -66,6 +66,9 @@ static Vec3 back_line(const Binder *b, int frame) {
     return vec_unit_or(vec_sub(arms, hips), vec(0, 1, 0));
 }
 
+/* How much the vertical has to say about a bone with that up: all of those who stand. */
+static double upright_share(Vec3 up) { return smoothstep(0.3, 0.8, up.y); }
+
 /* How straight the performer stands: 1 = torso and legs along the vertical. */
 static double straightness(const Binder *b, int frame) {
     double legs = vec_unit_or(line(b, frame, ROLE_LEFT_SHIN, ROLE_LEFT_THIGH), vec(0, 0, 0)).y +
@@ -87,26 +90,28 @@ static Mat3 snap_left(Mat3 bind) {
 }
 
 /* bind of a joint from frames in which left is the line between two joints and up is the line
-   of the back, with a share of the vertical: a chest leans as the back leans, a pelvis less. */
+   of the back, with a share of the vertical: a chest leans as the back leans, a pelvis less.
+   Of those who lie, the vertical says nothing. */
 static Mat3 bind_from_line(const Binder *b, const int *frames, int n, Role role, Role right, Role left,
                            double vertical) {
     int joint = b->f->roles.joint[role];
     Mean mean = {{0, 0, 0, 0}, 0};
     for (int i = 0; i < n; i++) {
-        Vec3 up = vec_lerp(back_line(b, frames[i]), vec(0, 1, 0), vertical);
+        Vec3 back = back_line(b, frames[i]), up = vec_lerp(back, vec(0, 1, 0), vertical * upright_share(back));
         Mat3 body = stand_across(line(b, frames[i], right, left), up);
         mean_add(&mean, mat_mul(mat_transpose(turn(b, frames[i], joint)), body));
     }
     return snap_left(mean_of(&mean));
 }
 
-/* bind of a joint that on the mean over the frames stands upright and faces where bone `like`
-   does. */
+/* bind of a joint that on the mean over the frames stands upright (where bone `like` does, about)
+   and faces where that bone does. */
 static Mat3 bind_like(const Binder *b, const int *frames, int n, int joint, Role like) {
     Mean mean = {{0, 0, 0, 0}, 0};
     for (int i = 0; i < n; i++) {
         Mat3 body = mat_mul(turn(b, frames[i], b->f->roles.joint[like]), b->f->bind[like].r);
-        body = stand(mat_column(body, 0), vec(0, 1, 0));
+        Vec3 up = vec_lerp(mat_column(body, 1), vec(0, 1, 0), upright_share(mat_column(body, 1)));
+        body = stand(mat_column(body, 0), vec_unit_or(up, mat_column(body, 1)));
         mean_add(&mean, mat_mul(mat_transpose(turn(b, frames[i], joint)), body));
     }
     return snap_left(mean_of(&mean));

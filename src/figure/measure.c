@@ -4,11 +4,14 @@
 #include "figure/measure.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+#include "figure/upright.h"
 
 /* The reference adult, metres. */
 static const double STATURE = 1.70, ABOVE_SHOULDERS = 0.315;
 static const double HIP_HEIGHT = 0.885, SHOULDER_HEIGHT = 1.385;
-static const double SOLE = 0.012; /* below toe joint or tip, against thigh + shin + torso */
+static const double SOLE = 0.016; /* below toe joint or tip */
 static const Lengths adult = {0.176, 0.415, 0.39, 0.08, 0.50, 0.34, 0.28, 0.25, 0.18};
 
 /* ---- canonical stance ---- */
@@ -55,54 +58,11 @@ Figure figure_reference(void) {
     return f;
 }
 
-/* ---- up ---- */
+/* ---- lengths ---- */
 
 static Vec3 between(const Sample *s, int frame, int a, int b) {
     return vec_mid(sample_point(s, frame, a), sample_point(s, frame, b));
 }
-
-static Vec3 axis_of(char up) {
-    double sign = up >= 'x' ? 1 : -1;
-    char axis = up >= 'x' ? up : (char)(up - 'X' + 'x');
-    return vec(axis == 'x' ? sign : 0, axis == 'y' ? sign : 0, axis == 'z' ? sign : 0);
-}
-
-/* The axis nearest to the mean of hips -> shoulders and, less, ankles -> hips (sitters stretch
-   their legs). People who bow or lie for the whole take would decide wrongly, so the axis that
-   is up in a human zero pose, else y and then z, has a head start. */
-static char find_up(const Sample *s, const Figure *figure, const Rest *rest) {
-    const int *j = figure->roles.joint;
-    int left = figure->toward[ROLE_LEFT_SHIN], right = figure->toward[ROLE_RIGHT_SHIN];
-    if (left < 0 || right < 0) left = j[ROLE_LEFT_SHIN], right = j[ROLE_RIGHT_SHIN];
-    Vec3 sum = {0, 0, 0};
-    for (int f = 0; f < s->count; f++) {
-        Vec3 hips = between(s, f, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]);
-        Vec3 chest = vec_sub(between(s, f, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]), hips);
-        Vec3 legs = vec_sub(hips, between(s, f, left, right));
-        sum = vec_add(sum, vec_unit_or(chest, vec(0, 0, 0)));
-        sum = vec_mad(sum, vec_unit_or(legs, vec(0, 0, 0)), 0.7);
-    }
-    double best = -1;
-    char up = 'y';
-    for (const char *c = "yzxYZX"; *c; c++) {
-        double score = vec_dot(axis_of(*c), sum) / s->count / 1.7;
-        if (rest->human) score += vec_dot(axis_of(*c), mat_column(rest->frame, 1)) > 0.9 ? 0.2 : 0;
-        else score += *c == 'y' ? 0.15 : *c == 'z' ? 0.05 : 0;
-        if (score > best) best = score, up = *c;
-    }
-    return up;
-}
-
-/* The turn by a right angle (or two) that takes the up axis to +y. */
-static Mat3 upright_of(char up) {
-    Vec3 axis = axis_of(up);
-    if (up == 'y') return mat_identity();
-    if (up == 'Y') return (Mat3){{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
-    Vec3 x = axis.x != 0 ? vec(0, -axis.x, 0) : vec(1, 0, 0);
-    return (Mat3){{x, axis, vec_cross(x, axis)}};
-}
-
-/* ---- lengths ---- */
 
 static int compare(const void *a, const void *b) {
     double x = *(const double *)a, y = *(const double *)b;
@@ -184,6 +144,8 @@ static void find_unit(double stature, double file_unit, Figure *f) {
     if (file_unit > 0 && stature * file_unit > 0.5 && stature * file_unit < 2.5) {
         f->unit = file_unit;
         f->unit_name = "given by the file";
+        for (int i = 0; i < NUNITS; i++)
+            if (fabs(file_unit / units[i].metres - 1) < 1e-6) f->unit_name = units[i].name;
         return;
     }
     for (int child = 0; child < 2; child++)
@@ -241,32 +203,53 @@ static void find_ends(const Skeleton *skeleton, const Sample *s, Figure *f) {
     find_fingertip(skeleton, s, f, ROLE_RIGHT_HAND);
 }
 
-bool figure_measure(const Motion *m, const FigureOptions *options, const Sample *s, Rest *rest, Notes *notes,
-                    Figure *f, Error *e) {
-    if (options->up && (options->up < 'X' || options->up > 'z' || (options->up > 'Z' && options->up < 'x')))
-        return error_set(e, ERR_USAGE, "no such up axis '%c': x, y, z, X, Y or Z", options->up);
-    find_ends(&m->skeleton, s, f);
-    *rest = rest_find(&m->skeleton, f);
-    f->rest = rest->name;
-    f->up = options->up ? options->up : find_up(s, f, rest);
-    f->upright = upright_of(f->up);
-
-    Lengths l = {
-        .hips = distance_at(s, 0.5, f->roles.joint[ROLE_LEFT_THIGH], f->roles.joint[ROLE_RIGHT_THIGH]),
+static Lengths measure_lengths(const Skeleton *skeleton, const Sample *s, const Rest *rest, const Figure *f) {
+    const int *j = f->roles.joint;
+    double left = ankle_height(skeleton, s, rest, f, ROLE_LEFT_FOOT);
+    double right = ankle_height(skeleton, s, rest, f, ROLE_RIGHT_FOOT);
+    return (Lengths){
+        .hips = distance_at(s, 0.5, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]),
         .thigh = bone_length(s, f, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH),
         .shin = bone_length(s, f, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN),
-        .torso = torso_length(&m->skeleton, s, rest, &f->roles),
-        .shoulders = distance_at(s, 0.5, f->roles.joint[ROLE_LEFT_UPPER_ARM], f->roles.joint[ROLE_RIGHT_UPPER_ARM]),
+        .ankle = left >= 0 && right >= 0 ? 0.5 * (left + right) : -1,
+        .torso = torso_length(skeleton, s, rest, &f->roles),
+        .shoulders = distance_at(s, 0.5, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]),
         .upper_arm = bone_length(s, f, ROLE_LEFT_UPPER_ARM, ROLE_RIGHT_UPPER_ARM),
         .forearm = bone_length(s, f, ROLE_LEFT_FOREARM, ROLE_RIGHT_FOREARM),
         .hand = bone_length(s, f, ROLE_LEFT_HAND, ROLE_RIGHT_HAND),
     };
-    double known = l.thigh + l.shin + l.torso;
+}
+
+/* The lengths in metres, kept within what a human of k times the reference may have. */
+static Lengths human_lengths(const Lengths *l, double unit, double k) {
+    double ankle = l->ankle >= 0 ? l->ankle * unit + SOLE * k : adult.ankle * k;
+    return (Lengths){
+        .hips = clamp(l->hips * unit, 0.7 * adult.hips * k, 1.5 * adult.hips * k),
+        .thigh = sane(l->thigh * unit, adult.thigh * k, 0.5, 1.6),
+        .shin = sane(l->shin * unit, adult.shin * k, 0.5, 1.6),
+        .ankle = clamp(ankle, 0.5 * adult.ankle * k, 1.6 * adult.ankle * k),
+        .torso = sane(l->torso * unit, adult.torso * k, 0.5, 1.6),
+        .shoulders = clamp(l->shoulders * unit, 0.77 * adult.shoulders * k, 1.5 * adult.shoulders * k),
+        .upper_arm = sane(l->upper_arm * unit, adult.upper_arm * k, 0.5, 1.6),
+        .forearm = sane(l->forearm * unit, adult.forearm * k, 0.5, 1.6),
+        .hand = sane(l->hand * unit, adult.hand * k, 0.75, 1.25),
+    };
+}
+
+bool figure_measure(const Motion *m, const FigureOptions *options, const Sample *s, Rest *rest, Notes *notes,
+                    Figure *f, Error *e) {
+    if (options->up && !memchr("xyzXYZ", options->up, 6))
+        return error_set(e, ERR_USAGE, "no such up axis '%c': x, y, z, X, Y or Z", options->up);
+    find_ends(&m->skeleton, s, f);
+    *rest = rest_find(&m->skeleton, f);
+    f->rest = rest->name;
+    f->up = options->up ? options->up : upright_find(s, f, rest);
+    f->upright = upright_turn(f->up);
+
+    Lengths measured = measure_lengths(&m->skeleton, s, rest, f);
+    double known = measured.thigh + measured.shin + measured.torso;
     if (!(known > 1e-12 && known < 1e12)) return error_set(e, ERR_INPUT, "skeleton of no size in '%s'", m->path);
-    double left = ankle_height(&m->skeleton, s, rest, f, ROLE_LEFT_FOOT);
-    double right = ankle_height(&m->skeleton, s, rest, f, ROLE_RIGHT_FOOT);
-    l.ankle = left >= 0 && right >= 0 ? 0.5 * (left + right) + SOLE * known : 0;
-    /* Stature in units of the reference adult, then every length against its part of it. */
+    /* How many times the reference adult, in file units. */
     double k = known / (adult.thigh + adult.shin + adult.torso);
     find_unit(k * STATURE, m->file_unit, f);
     if (options->unit > 0) f->unit = options->unit, f->unit_name = "given";
@@ -274,22 +257,10 @@ bool figure_measure(const Motion *m, const FigureOptions *options, const Sample 
         notes_add(notes, (Place){0}, "unit unknown: %.4g units tall, taken for %.2f m", k * STATURE, STATURE);
     if (options->scale > 0) f->unit *= options->scale;
 
-    double u = f->unit;
-    k *= u;
-    double ankle = l.ankle > 0 ? l.ankle * u : adult.ankle * k;
-    Lengths in_metres = {
-        clamp(l.hips * u, 0.7 * adult.hips * k, 1.5 * adult.hips * k),
-        sane(l.thigh * u, adult.thigh * k, 0.5, 1.6),
-        sane(l.shin * u, adult.shin * k, 0.5, 1.6),
-        clamp(ankle, 0.5 * adult.ankle * k, 1.6 * adult.ankle * k),
-        sane(l.torso * u, adult.torso * k, 0.5, 1.6),
-        clamp(l.shoulders * u, 0.77 * adult.shoulders * k, 1.5 * adult.shoulders * k),
-        sane(l.upper_arm * u, adult.upper_arm * k, 0.5, 1.6),
-        sane(l.forearm * u, adult.forearm * k, 0.5, 1.6),
-        sane(l.hand * u, adult.hand * k, 0.75, 1.25),
-    };
-    f->legs_out = 0.5 * (in_metres.hips - l.hips * u);
-    f->arms_out = 0.5 * (in_metres.shoulders - l.shoulders * u);
-    figure_shape(k, &in_metres, f);
+    k *= f->unit;
+    Lengths kept = human_lengths(&measured, f->unit, k);
+    f->legs_out = 0.5 * (kept.hips - measured.hips * f->unit);
+    f->arms_out = 0.5 * (kept.shoulders - measured.shoulders * f->unit);
+    figure_shape(k, &kept, f);
     return true;
 }

@@ -1,0 +1,14 @@
+/* Which way is up in a motion file. */
+#ifndef FIGURE_UPRIGHT_H
+#define FIGURE_UPRIGHT_H
+
+#include "figure/rest.h"
+#include "figure/sample.h"
+
+/* 'x', 'y' or 'z', upper case where the negative axis is up. Uses roles and toward. */
+char upright_find(const Sample *s, const Figure *f, const Rest *rest);
+
+/* The turn by a right angle (or two) that takes that axis to +y. */
+Mat3 upright_turn(char up);
+
+#endif
