@@ -3,16 +3,9 @@
 #define APP_JOB_H
 
 #include "app/inputs.h"
+#include "app/wardrobe.h"
 #include "files/obj.h"
 #include "files/stats.h"
-
-/* What every motion of a run is dressed with; const while jobs run. */
-typedef struct {
-    const Settings *settings;
-    BodySpec body;
-    int ngarments;
-    Garment **garment;
-} Wardrobe;
 
 /* Where the time goes. OTHER is what is left of the whole. */
 typedef enum {

@@ -13,6 +13,7 @@
 #include "app/folder.h"
 #include "app/stop.h"
 #include "app/take.h"
+#include "app/wearer.h"
 #include "base/clock.h"
 
 typedef struct {
@@ -23,10 +24,7 @@ typedef struct {
     ObjWriter *obj;
     Notes *notes;
     JobResult *result;
-    Motion motion;
-    Figure figure;
-    Body body;
-    BodyFrame posed;
+    Wearer wearer;
     Dresser **dresser;     /* one for each garment */
     Take *take;
     StatsFile stats;
@@ -49,28 +47,13 @@ static double lap(double *since) {
 
 static bool open_motion(Job *j, Error *e) {
     const Settings *s = j->settings;
-    MotionOptions options = {.asf = s->asf, .fps = s->fps, .position = (PositionRule)s->position};
-    FigureOptions figure = {s->unit, s->scale, (char)s->up};
-    Roles roles;
+    DressOptions options = {.split = (SplitRule)s->split, .detail = s->detail, .depth = s->depth};
+    options.fixed_topology = s->fixed != 0;
     if (j->input->is_empty)
         return error_set(e, ERR_INPUT, "no motion (.bvh or .amc) in the folder '%s'", j->input->path);
-    return motion_open(j->input->path, &options, j->arena, j->notes, &j->motion, e) &&
-           roles_read(&j->motion, s->roles, j->arena, j->notes, &roles, e) &&
-           figure_build(&j->motion, &roles, &figure, j->arena, j->notes, &j->figure, e) &&
-           take_open(&j->motion, &j->figure, &s->frames, s->rate, j->arena, &j->take, e);
-}
-
-static bool fit(Job *j, Error *e) {
-    const Settings *s = j->settings;
-    const Wardrobe *w = j->wardrobe;
-    DressOptions options = {(SplitRule)s->split, s->detail, s->depth, s->fixed != 0};
-    j->dresser = ARENA_NEW(j->arena, Dresser *, w->ngarments, e);
-    if (!j->dresser || !body_fit(&w->body, &j->figure, s->body_detail ? s->body_detail : 16, j->arena, &j->body, e) ||
-        !body_frame_init(&j->posed, &j->body, j->unit, j->arena, e))
-        return false;
-    for (int g = 0; g < w->ngarments; g++)
-        if (!dresser_open(w->garment[g], &j->figure, &j->body, &options, j->arena, &j->dresser[g], e)) return false;
-    return true;
+    return wearer_open(j->wardrobe, j->input->path, j->unit, j->arena, j->notes, &j->wearer, e) &&
+           take_open(&j->wearer.motion, &j->wearer.figure, &s->frames, s->rate, j->arena, &j->take, e) &&
+           wearer_put_on(&j->wearer, j->wardrobe, &options, j->arena, &j->dresser, e);
 }
 
 static bool open_output(Job *j, Error *e) {
@@ -105,9 +88,7 @@ static bool write_mesh(Job *j, const char *name, int frame, const Mesh *mesh, lo
 
 static bool write_body(Job *j, int frame, Error *e) {
     if (j->settings->no_body) return true;
-    Mesh mesh = j->body.skin;
-    mesh.position = j->posed.position;
-    mesh.normal = j->posed.normal;
+    Mesh mesh = wearer_skin(&j->wearer);
     return write_mesh(j, "body", frame, &mesh, &j->result->bytes, e);
 }
 
@@ -127,7 +108,7 @@ static bool dress_garment(Job *j, int g, const TakeFrame *frame, StatsRow *row, 
     Mesh mesh;
     double start = clock_seconds(), since;
     row->garment = name;
-    dresser_frame(j->dresser[g], &j->posed, frame->dt, frame->restart, &mesh, &row->stats);
+    dresser_frame(j->dresser[g], &j->wearer.posed, frame->dt, frame->restart, &mesh, &row->stats);
     since = clock_seconds();
     if (!write_mesh(j, name, frame->number, &mesh, &sum->bytes, e)) return false;
     row->write_s += lap(&since);
@@ -140,7 +121,7 @@ static bool dress_garment(Job *j, int g, const TakeFrame *frame, StatsRow *row, 
 static bool dress_frame(Job *j, const TakeFrame *frame, double since, Error *e) {
     int n = j->wardrobe->ngarments;
     bool residual = false;
-    body_frame_pose(&j->posed, &frame->pose);
+    body_frame_pose(&j->wearer.posed, &frame->pose);
     double pose_s = lap(&since) / n;
     if (!write_body(j, frame->number, e)) return false;
     double body_s = lap(&since) / n;
@@ -180,7 +161,7 @@ static bool check(const Job *j, Error *e) {
 
 static bool run(Job *j, const JobWatch *watch, Error *e) {
     double since = clock_seconds();
-    if (!open_motion(j, e) || !fit(j, e) || !open_output(j, e)) return false;
+    if (!open_motion(j, e) || !open_output(j, e)) return false;
     j->result->seconds[STAGE_OPEN] = lap(&since);
     if (!dress_frames(j, watch, e)) return false;
     j->stats_is_open = false;
@@ -188,8 +169,8 @@ static bool run(Job *j, const JobWatch *watch, Error *e) {
 }
 
 static void tell(const Job *j, FILE *about) {
-    const Motion *m = &j->motion;
-    const Figure *f = &j->figure;
+    const Motion *m = &j->wearer.motion;
+    const Figure *f = &j->wearer.figure;
     fprintf(about, "%s: %s, %d frame%s at %.5g a second, figure %.2f m, unit %s, %s\n", j->input->name, m->format,
             m->nframes, m->nframes == 1 ? "" : "s", 1 / m->frame_time, f->height, f->unit_name, f->rest);
     for (int g = 0; g < j->wardrobe->ngarments; g++) {
@@ -219,7 +200,7 @@ void job_run(const Wardrobe *wardrobe, const Input *input, const JobWatch *watch
     if (about && (good || out->error.kind == ERR_CHECK)) tell(j, about);
     if (j->stats_is_open) stats_abandon(&j->stats);
     take_close(j->take);
-    motion_close(&j->motion);
+    wearer_close(&j->wearer);
     for (int g = 0; g < wardrobe->ngarments; g++) out->bytes += out->row[g].bytes;
     out->seconds[STAGE_OTHER] = other_seconds(out->seconds, lap(&since));
 }

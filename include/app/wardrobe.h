@@ -1,0 +1,19 @@
+/* What the figures of a run are dressed in; const once it is read. */
+#ifndef APP_WARDROBE_H
+#define APP_WARDROBE_H
+
+#include "app/settings.h"
+#include "figure/body.h"
+
+typedef struct {
+    const Settings *settings;
+    BodySpec body;
+    int ngarments;
+    Garment **garment;
+} Wardrobe;
+
+/* The body and the garments that the settings name. Two garments of one name are an error, for
+   names become files. Memory from arena. */
+MUST_CHECK bool wardrobe_read(const Settings *settings, Arena *arena, Wardrobe *out, Error *e);
+
+#endif

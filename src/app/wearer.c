@@ -1,0 +1,35 @@
+/* From a path and the settings to a body that can be posed: how a motion is opened stands here
+   and nowhere else, so that every command sees the same figure. */
+#include "app/wearer.h"
+
+bool wearer_open(const Wardrobe *wardrobe, const char *path, double unit, Arena *arena, Notes *notes, Wearer *out,
+                 Error *e) {
+    const Settings *s = wardrobe->settings;
+    MotionOptions options = {.asf = s->asf, .fps = s->fps, .position = (PositionRule)s->position};
+    FigureOptions figure = {s->unit, s->scale, (char)s->up};
+    Roles roles;
+    return motion_open(path, &options, arena, notes, &out->motion, e) &&
+           roles_read(&out->motion, s->roles, arena, notes, &roles, e) &&
+           figure_build(&out->motion, &roles, &figure, arena, notes, &out->figure, e) &&
+           body_fit(&wardrobe->body, &out->figure, s->body_detail ? s->body_detail : 16, arena, &out->body, e) &&
+           body_frame_init(&out->posed, &out->body, unit, arena, e);
+}
+
+void wearer_close(Wearer *w) { motion_close(&w->motion); }
+
+bool wearer_put_on(const Wearer *w, const Wardrobe *wardrobe, const DressOptions *options, Arena *arena,
+                   Dresser ***out, Error *e) {
+    Dresser **dresser = ARENA_NEW(arena, Dresser *, wardrobe->ngarments, e);
+    *out = dresser;
+    if (!dresser) return false;
+    for (int g = 0; g < wardrobe->ngarments; g++)
+        if (!dresser_open(wardrobe->garment[g], &w->figure, &w->body, options, arena, &dresser[g], e)) return false;
+    return true;
+}
+
+Mesh wearer_skin(const Wearer *w) {
+    Mesh mesh = w->body.skin;
+    mesh.position = w->posed.position;
+    mesh.normal = w->posed.normal;
+    return mesh;
+}
