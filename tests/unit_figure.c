@@ -224,7 +224,7 @@ static void test_upright(void) {
     }
 }
 
-/* Up is up also of those who never stand. */
+/* Up is up also of those who never stand. The body lies turned by 20 degrees about its own axis. */
 static void test_lying(void) {
     static const struct { const char *file; char up; double face; } cases[] = {
         {"tests/data/figure/pushups.bvh", 'y', -1}, {"tests/data/figure/lying.bvh", 'z', 1},
@@ -234,9 +234,9 @@ static void test_lying(void) {
         bool good = rig_open(&r, cases[i].file, NULL) && r.figure.up == cases[i].up;
         OK(good, "%s: up is %c", cases[i].file, r.figure.up);
         Pose pose = rig_pose(&r, 5);
-        OK(angle(mat_column(pose.bone[ROLE_CHEST].r, 2), vec(0, cases[i].face, 0)) < 15, "and the chest faces %s",
+        OK(angle(mat_column(pose.bone[ROLE_CHEST].r, 2), vec(0, cases[i].face, 0)) < 35, "and the chest faces %s",
            cases[i].face > 0 ? "the sky" : "the floor");
-        OK(angle(mat_column(pose.bone[ROLE_PELVIS].r, 2), vec(0, cases[i].face, 0)) < 15, "and so does the pelvis");
+        OK(angle(mat_column(pose.bone[ROLE_PELVIS].r, 2), vec(0, cases[i].face, 0)) < 35, "and so does the pelvis");
         rig_close(&r);
     }
 }
