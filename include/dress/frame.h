@@ -46,6 +46,17 @@ MUST_CHECK bool dresser_open(const Garment *garment, const Figure *figure, const
    nothing. */
 void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, Mesh *mesh, FrameStats *stats);
 
+/* A patch as it stands after the last frame: a leaf of a root patch's quadtree. World, metres. */
+typedef struct { Patch patch; int root, level; } LeafPatch;
+
+/* The leaves of the last frame, at most `capacity` of them; returns how many there are. The mesh
+   lies on them but for the last millimetres, by which single vertices may have been moved. */
+int dresser_leaves(const Dresser *d, LeafPatch *out, int capacity);
+
+/* The edges of the last mesh that lie on borders of leaves, each once, into room for twice the
+   edges of that mesh; returns how many. */
+int dresser_borders(const Dresser *d, Edge *out);
+
 /* Facts for `inspect`. own_parts: bits 1 << role that the garment collides with. */
 typedef struct { int patches, panels, openings; unsigned own_parts; } DresserInfo;
 DresserInfo dresser_info(const Dresser *d);

@@ -58,6 +58,10 @@ void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *
 bool push_raise(Push *p, int vertex, double by);
 void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
 
+/* The displaced patch over cell (a, b) of a level, a leaf or finer: the part of the root patch and
+   the field over it, which is bicubic there. Offsets are left out. */
+Patch push_leaf(const Push *p, const Patch *root, LatticeCell cell, int level);
+
 /* Fills what the solution amounts to: active, pinched, displacement. */
 void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
 

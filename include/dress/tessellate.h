@@ -22,4 +22,8 @@ MUST_CHECK bool sheet_reserve(Sheet *s, const Lattice *lattice, Arena *arena, Er
    take the finer one's vertices in and become fans round their middle: no T-junctions. */
 void tessellate(Sheet *s, const Leaves *leaves);
 
+/* The edges on borders of leaves, coarser than those tessellated or the same: each once, into room
+   for 2 * nedges; returns how many. */
+int sheet_borders(const Sheet *s, const Leaves *leaves, Edge *out);
+
 #endif

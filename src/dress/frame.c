@@ -198,6 +198,21 @@ void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, M
     stats->capped |= found.capped;
 }
 
+int dresser_leaves(const Dresser *d, LeafPatch *out, int capacity) {
+    int depth = d->lattice.depth, cells = 1 << depth, n = 0;
+    for (int p = 0; p < d->fit.npatches; p++)
+        for (int x = 0; x < cells; x++)
+            for (int y = 0; y < cells; y++) {
+                int level = leaf_at(&d->leaves, p, x, y), shift = depth - level;
+                if (level < 0 || n++ >= capacity) continue;
+                LatticeCell cell = {p, x >> shift, y >> shift};
+                out[n - 1] = (LeafPatch){push_leaf(&d->push, d->root, cell, level), p, level};
+            }
+    return n;
+}
+
+int dresser_borders(const Dresser *d, Edge *out) { return sheet_borders(&d->sheet, &d->leaves, out); }
+
 DresserInfo dresser_info(const Dresser *d) {
     return (DresserInfo){.patches = d->fit.npatches, .panels = d->ngroups, .openings = d->fit.nopenings, .own_parts = d->fit.collide};
 }

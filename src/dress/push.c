@@ -357,3 +357,28 @@ void push_normals(const Push *p, const Patch *root, const Sheet *sheet, const Ve
         normal[v] = vec_dot(smooth, faces) > AGREEMENT ? smooth : faces;
     }
 }
+
+/* The field of one level over cell (a, b) of a deeper one, as a patch: of the cell of that level
+   that holds it the four corners' vectors, each to its quarter of the control points, then cut. */
+static Patch field_part(const Push *p, LatticeCell cell, int level, int deeper) {
+    int shift = deeper - level, n = (1 << level) + 1, a = cell.a >> shift, b = cell.b >> shift;
+    const int *vertex = p->lattice->level[level].vertex;
+    Patch whole;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            int v = vertex[(cell.patch * n + a + i / 2) * n + b + j / 2];
+            whole.p[i][j] = p->displacement[p->start[level] + v];
+        }
+    double size = 1.0 / (1 << shift), u = (cell.a - (a << shift)) * size, w = (cell.b - (b << shift)) * size;
+    return bezier_part(&whole, u, u + size, w, w + size);
+}
+
+Patch push_leaf(const Push *p, const Patch *root, LatticeCell cell, int level) {
+    double size = 1.0 / (1 << level), u = cell.a * size, w = cell.b * size;
+    Patch leaf = bezier_part(&root[cell.patch], u, u + size, w, w + size);
+    for (int l = 0; l <= level; l++) {
+        Patch field = field_part(p, cell, l, level);
+        for (int k = 0; k < 16; k++) leaf.p[k / 4][k % 4] = vec_add(leaf.p[k / 4][k % 4], field.p[k / 4][k % 4]);
+    }
+    return leaf;
+}

@@ -2,6 +2,7 @@
    facet looks along its sides for places that a finer neighbour has marked in between. */
 #include "dress/tessellate.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 bool sheet_reserve(Sheet *s, const Lattice *lattice, Arena *arena, Error *e) {
@@ -104,4 +105,43 @@ void tessellate(Sheet *s, const Leaves *leaves) {
         }
     }
     s->first_of_patch[l->fit->npatches] = s->ntriangles;
+}
+
+/* Lists the edges along one side of a leaf, `places` lattice steps long, that the mesh has there. */
+static int side_borders(const Sheet *s, int patch, int i, int j, int di, int dj, int places, Edge *out) {
+    int n = 0, last = s->vertex[lattice_place(s->lattice, patch, i, j)];
+    for (int k = 1; k <= places; k++) {
+        int v = s->vertex[lattice_place(s->lattice, patch, i + k * di, j + k * dj)];
+        if (v < 0 || v == last) continue; /* no vertex here, or a pole */
+        out[n++] = last < v ? (Edge){{last, v}} : (Edge){{v, last}};
+        last = v;
+    }
+    return n;
+}
+
+static int by_vertices(const void *a, const void *b) {
+    const Edge *p = a, *q = b;
+    int c = p->v[0] == q->v[0]; /* the first in which they differ, if any */
+    return (p->v[c] > q->v[c]) - (p->v[c] < q->v[c]);
+}
+
+/* Neighbours list a border once each: twice in all, however different their levels. */
+int sheet_borders(const Sheet *s, const Leaves *leaves, Edge *out) {
+    const Lattice *l = s->lattice;
+    int cells = 1 << l->depth, listed = 0, n = 0;
+    for (int p = 0; p < l->fit->npatches; p++)
+        for (int x = 0; x < cells; x++)
+            for (int y = 0; y < cells; y++) {
+                int level = leaf_at(leaves, p, x, y), i = x * l->detail, j = y * l->detail;
+                if (level < 0) continue;
+                int size = l->side >> level;
+                listed += side_borders(s, p, i, j, 1, 0, size, out + listed);
+                listed += side_borders(s, p, i, j, 0, 1, size, out + listed);
+                listed += side_borders(s, p, i, j + size, 1, 0, size, out + listed);
+                listed += side_borders(s, p, i + size, j, 0, 1, size, out + listed);
+            }
+    qsort(out, (size_t)listed, sizeof *out, by_vertices);
+    for (int k = 0; k < listed; k++)
+        if (k == 0 || by_vertices(&out[k], &out[n - 1]) != 0) out[n++] = out[k];
+    return n;
 }
