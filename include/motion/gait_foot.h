@@ -42,7 +42,7 @@ void gait_foot_sole(const GaitBody *body, const FootPose *foot, Vec3 *sole);
 FootPose gait_foot_stand(const GaitBody *body, const Footfall *f, double t);
 
 /* The part of `clearance` that counts at x = 0..1 of the swing; at most 1. */
-double gait_foot_clearance(double x);
+double gait_foot_clearance(const Footfall *to, double x);
 
 /* Between from->release and to->contact. */
 FootPose gait_foot_swing(const GaitBody *body, const Footfall *from, const Footfall *to, double t);

@@ -27,6 +27,10 @@ static const Preset presets[] = {
 };
 enum { PRESETS = sizeof presets / sizeof presets[0] };
 
+/* Steps that legs can make, in statures. */
+#define LEAST_STEP 0.1
+#define MOST_STEP 0.6
+
 /* Steps of a walk with stairs, apart from those on the stairs, and what a step takes there. */
 enum { STEPS_BESIDE_STAIRS = 5, LEAST_BESIDE_STAIRS = 2 };
 #define STAIR_STEP_TIME 0.65
@@ -53,13 +57,14 @@ static bool in_range(const char *what, const char *unit, double x, double low, d
 
 static bool check_stairs(const Gait *g, Error *e) {
     if (g->stair_rise == 0 && g->stair_run == 0 && g->stair_count == 0) return true;
-    if (!in_range("stair rise", " m", fabs(g->stair_rise), 0.01 * g->height, 0.18 * g->height, e)) return false;
-    if (!in_range("stair run", " m", g->stair_run, 0.11 * g->height, 0.4 * g->height, e)) return false;
+    if (!in_range("stair rise", " m", fabs(g->stair_rise), 0.02 * g->height, 0.14 * g->height, e)) return false;
+    if (!in_range("stair run", " m", g->stair_run, 0.13 * g->height, 0.4 * g->height, e)) return false;
     if (!in_range("stair count", "", g->stair_count, 1, 1000, e)) return false;
     if (g->slope != 0) return error_set(e, ERR_USAGE, "stairs and a slope exclude each other");
     int least = g->stair_count + LEAST_BESIDE_STAIRS;
     if (g->steps > 0 && g->steps < least)
-        return error_set(e, ERR_USAGE, "%d steps do not suffice for %d stairs: at least %d", g->steps, g->stair_count, least);
+        return error_set(e, ERR_USAGE, "%d steps are too few for %d stairs; at least %d", g->steps, g->stair_count,
+                         least);
     return true;
 }
 
@@ -67,11 +72,11 @@ static bool check(const Gait *g, const Preset *preset, Error *e) {
     if (!in_range("height", " m", g->height, 0.5, 2.5, e)) return false;
     if (!in_range("frames per step", "", g->frames_per_step, 4, 1000, e)) return false;
     if (g->steps != 0 && !in_range("number of steps", "", g->steps, 1, 10000, e)) return false;
-    if (g->step_length != 0 && !in_range("step length", " m", g->step_length, 0.1 * g->height, 0.6 * g->height, e))
-        return false;
+    double least = LEAST_STEP * g->height, most = MOST_STEP * g->height;
+    if (g->step_length != 0 && !in_range("step length", " m", g->step_length, least, most, e)) return false;
     if (g->speed != 0 && !in_range("speed", " m/s", g->speed, 0.05, 5, e)) return false;
     if (!in_range("knee lift", " degrees", g->knee_lift, 0, 60, e)) return false;
-    if (!in_range("arm swing", " degrees", fmax(g->arm_swing, 0), 0, 80, e) || isnan(g->arm_swing)) return false;
+    if (!(g->arm_swing < 0) && !in_range("arm swing", " degrees", g->arm_swing, 0, 80, e)) return false;
     if (!in_range("slope", " degrees", g->slope, -35, 35, e)) return false;
     if (!check_stairs(g, e)) return false;
     bool plain = strcmp(preset->name, "normal") == 0 || strcmp(preset->name, "brisk") == 0;
@@ -82,18 +87,23 @@ static bool check(const Gait *g, const Preset *preset, Error *e) {
     return true;
 }
 
+/* Quicker walking is longer and faster steps in equal parts. */
+static double step_for_speed(const Gait *g, double natural, double step_time) {
+    double quicker = g->speed * step_time / natural;
+    return clamp(natural * sqrt(quicker), LEAST_STEP * g->height, MOST_STEP * g->height);
+}
+
 /* Fills in what was left open. */
 static bool complete(Gait *g, const Preset *preset, double *frame_time, Error *e) {
     bool stairs = g->stair_count > 0;
-    double step_time = stairs ? STAIR_STEP_TIME : preset->step_time;
+    double step_time = stairs ? STAIR_STEP_TIME : preset->step_time, natural = preset->step_length * g->height;
     if (g->steps == 0) g->steps = stairs ? g->stair_count + STEPS_BESIDE_STAIRS : preset->steps;
-    if (g->step_length == 0) g->step_length = g->speed > 0 && preset->walks ? 0 : preset->step_length * g->height;
-    if (g->step_length == 0) /* quicker walking is longer and faster steps in equal parts */
-        g->step_length = clamp(preset->step_length * g->height * sqrt(g->speed * step_time / (preset->step_length * g->height)), 0.1 * g->height, 0.6 * g->height);
+    if (g->step_length == 0) g->step_length = g->speed > 0 ? step_for_speed(g, natural, step_time) : natural;
     if (g->speed == 0) g->speed = g->step_length / step_time;
     if (g->arm_swing < 0) g->arm_swing = preset->arm_swing;
-    *frame_time = g->step_length / g->speed / g->frames_per_step;
-    if (!in_range("time of a step", " s", g->step_length / g->speed, 0.15, 5, e)) return false;
+    step_time = g->step_length / g->speed;
+    *frame_time = step_time / g->frames_per_step;
+    if (!in_range("time of a step", " s", step_time, 0.15, 5, e)) return false;
     if ((g->steps + 4.0) * STEPS_A_SQUAT * g->frames_per_step > FRAMES_MAX)
         return error_set(e, ERR_USAGE, "%d steps of %d frames are too many", g->steps, g->frames_per_step);
     return true;

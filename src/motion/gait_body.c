@@ -93,7 +93,8 @@ static Vec3 angles_xyz(Mat3 m) {
 }
 
 Vec3 gait_pose_hip(const GaitBody *body, const GaitPose *pose, int side) {
-    return vec_add(pose->hips, mat_apply(joint_rotation(pose, GAIT_HIPS), body->offset[GAIT_THIGH + side * LEG_JOINTS]));
+    Rigid hips = {joint_rotation(pose, GAIT_HIPS), pose->hips};
+    return rigid_apply(hips, body->offset[GAIT_THIGH + side * LEG_JOINTS]);
 }
 
 Rigid gait_pose_foot(const GaitBody *body, const GaitPose *pose, int side) {

@@ -1,7 +1,7 @@
 /* A standing foot rolls: over the heel until it lies flat, then over the toe joint, in the end
-   over the tip of the toes, about points of the ground that do not move. So nothing slides, whatever the rest of the body
-   does. How far it is pitched at which moment, and the way of the swinging ankle, come from
-   the published joint angles, by forward kinematics of one leg. */
+   over the tip of the toes, about points of the ground that do not move. So nothing slides,
+   whatever the rest of the body does. How far it is pitched at which moment, and the way of the
+   swinging ankle, come from the published joint angles, by forward kinematics of one leg. */
 #include "motion/gait_foot.h"
 
 #include "motion/gait_curves.h"
@@ -35,7 +35,7 @@ static double strike_pitch(double cycle) {
 
 static double lift_pitch(double cycle) {
     double rise = -free_pitch(fmin(cycle, GAIT_STANCE)) - HEEL_FLAT;
-    return cycle > 0.2 && rise > 0 ? -rise * rise / (rise + HEEL_SOFT) : 0;
+    return cycle > 0.1 && rise > 0 ? -rise * rise / (rise + HEEL_SOFT) : 0;
 }
 
 double gait_foot_strike(void) {
@@ -64,7 +64,8 @@ static Rigid roll(const GaitBody *body, double pitch) {
 
 FootPose gait_foot_stand(const GaitBody *body, const Footfall *f, double t) {
     double since = (t - f->contact) / 2, until = GAIT_STANCE - (f->release - t) / 2;
-    double pitch = strike_pitch(since) / gait_foot_strike() * f->strike + lift_pitch(until) / gait_foot_lift() * f->lift;
+    double pitch = strike_pitch(since) / gait_foot_strike() * f->strike;
+    pitch += lift_pitch(until) / gait_foot_lift() * f->lift;
     return (FootPose){rigid_mul(f->ground, roll(body, pitch)), toe_bend(pitch)};
 }
 
@@ -115,34 +116,50 @@ static void swing_shape(double x, double *progress, double *height) {
     *height = p.y - a.y - (b.y - a.y) * *progress;
 }
 
+/* As the angles say; on stairs simply back to level, upwards at once, lest the toes meet the next
+   riser. */
 static double swing_pitch(const Footfall *from, const Footfall *to, double x) {
     double pitch = free_pitch(GAIT_STANCE + (1 - GAIT_STANCE) * x);
-    if (pitch < 0) return pitch * from->lift / free_pitch(GAIT_STANCE) + fmin(to->strike, 0) * smoothstep(0.6, 1, x);
-    return pitch * fmax(to->strike, 0) / gait_foot_strike() + fmin(to->strike, 0) * smoothstep(0.6, 1, x);
+    if (to->climb != 0) pitch = from->lift * smoothstep(to->climb > 0 ? 0.5 : 0.7, 0.1, x);
+    else if (pitch < 0) pitch *= from->lift / free_pitch(GAIT_STANCE);
+    else pitch *= fmax(to->strike, 0) / gait_foot_strike();
+    return pitch + fmin(to->strike, 0) * smoothstep(0.6, 1, x);
 }
 
-/* Most where a natural foot passes closest to the ground: after 0.6 of the swing. */
-double gait_foot_clearance(double x) {
-    return 28.94 * x * x * x * (1 - x) * (1 - x);
+/* Most where a natural foot passes closest to the ground, after 0.6 of the swing; on stairs all
+   along the middle. */
+double gait_foot_clearance(const Footfall *to, double x) {
+    return to->climb == 0 ? 17.5 * x * x * x * (1 - x) * sqrt(1 - x) : smoothstep(0, 0.35, x) * smoothstep(1, 0.65, x);
 }
 
-/* Up: first the height, then the way; down: the other way round. */
-static double climb_progress(double climb, double x) {
-    return climb > 0 ? smoothstep(0, 0.7, x) : smoothstep(0.3, 1, x);
+/* Over level ground the ankle goes as the angles say, and leaves in the direction in which the
+   foot points; up a stair it rises first, then goes forward; down a stair it goes forward first. */
+static Vec3 swing_ankle(const GaitBody *body, const Footfall *from, const Footfall *to, Vec3 a, Vec3 b, double x) {
+    double progress, height, soon, ignored, length = vec_dist(a, b), size = length / (2 * GAIT_STEP * body->height);
+    swing_shape(x, &progress, &height);
+    swing_shape(0.001, &soon, &ignored);
+    Vec3 astray = vec_mad(vec_sub(a, b), mat_column(from->ground.r, 2), length);
+    Vec3 ankle = vec_mad(vec_lerp(a, b, progress), astray, soon / 0.001 * x * (1 - x) * (1 - x) * (1 - x));
+    if (to->climb > 0) {
+        ankle = vec_lerp(a, b, smoothstep(0.25, 1, x));
+        ankle.y = a.y + (b.y - a.y) * smoothstep(0, 0.55, x);
+    } else if (to->climb < 0) {
+        ankle = vec_lerp(a, b, smoothstep(0, 0.8, x));
+        ankle.y = a.y + (b.y - a.y) * smoothstep(0.3, 1, x);
+        height /= 2;
+    }
+    height = height * sqrt(size) * body->height + to->clearance * gait_foot_clearance(to, x);
+    return vec_mad(ankle, mat_column(to->ground.r, 1), height);
 }
 
 FootPose gait_foot_swing(const GaitBody *body, const Footfall *from, const Footfall *to, double t) {
-    double x = clamp((t - from->release) / (to->contact - from->release), 0, 1), progress, height;
-    swing_shape(x, &progress, &height);
+    double x = clamp((t - from->release) / (to->contact - from->release), 0, 1);
     Rigid a = rigid_mul(from->ground, roll(body, from->lift)), b = rigid_mul(to->ground, roll(body, to->strike));
-    Vec3 flat = vec_mad(b.t, vec(0, 1, 0), -to->climb);
-    Vec3 ankle = vec_lerp(a.t, flat, progress);
-    double size = vec_dist(a.t, flat) / (2 * GAIT_STEP);
-    ankle.y += to->climb * climb_progress(to->climb, x) + height * sqrt(size * body->height);
-    ankle.y += to->clearance * gait_foot_clearance(x);
+    Vec3 ankle = swing_ankle(body, from, to, a.t, b.t, x);
     double pitch = swing_pitch(from, to, x);
-    Mat3 ground = mat_nlerp(from->ground.r, to->ground.r, smoothstep(0, 1, x));
-    double toe = toe_bend(pitch) * (1 - smoothstep(0, 0.35, x)) + TOE_RAISED * smoothstep(0, 0.3, x) * smoothstep(1, 0.75, x);
+    Mat3 ground = mat_nlerp(from->ground.r, to->ground.r, smoothstep(0.12, 0.95, x));
+    double toe = toe_bend(pitch) * smoothstep(0.35, 0, x) + toe_bend(to->strike) * smoothstep(0.6, 1, x);
+    toe += TOE_RAISED * smoothstep(0, 0.3, x) * smoothstep(1, 0.75, x);
     return (FootPose){{mat_mul(ground, gait_pitch(pitch)), ankle}, toe};
 }
 

@@ -4,6 +4,8 @@
    and ends smoothly and moves evenly where the steps are even. */
 #include "motion/gait_plan.h"
 
+#include <string.h>
+
 /* Parts of the stature. */
 #define STANDING_WIDTH 0.09
 #define WALKING_WIDTH 0.06
@@ -15,18 +17,30 @@
 /* A walker who is about to stop takes a shorter step. */
 #define LAST_STEP 0.8
 
-/* Room between toes or heel and a riser. */
+/* Room between toes or heel and a riser, and under a swinging foot. */
 #define RISER_ROOM 0.009
+#define GROUND_ROOM 0.003
+
+/* Pitches on stairs: going up the foot lands flat, going down with the toes first. */
+#define LIFT_UP (-32.0)
+#define LIFT_DOWN (-45.0)
+#define STRIKE_DOWN (-18.0)
 
 double gait_ground_height(const GaitGround *g, double z) {
     double stairs = g->count > 0 ? clamp(floor((z - g->first) / g->run) + 1, 0, g->count) * g->rise : 0;
     return stairs + z * tan(g->slope * PI / 180);
 }
 
-/* The track at arc length s: straight, half a circle to the left, straight back. */
-static void follow_turn(const GaitPlan *plan, double s, GaitStep *step) {
-    double radius = TURN_RADIUS * plan->body.height, whole = 100 * plan->gait.step_length * plan->gait.steps;
-    double bend = (whole - PI * radius) / 2, angle = clamp((s - bend) / radius, 0, PI);
+/* Length of k steps over level ground; 0 = the standing walker. */
+static double walked(const GaitPlan *plan, int k) {
+    int steps = plan->gait.steps;
+    return 100 * plan->gait.step_length * (k < steps ? k : steps - 1 + LAST_STEP);
+}
+
+/* Straight, half a circle to the left, straight back. */
+static void follow_turn(const GaitPlan *plan, int k, GaitStep *step) {
+    double radius = TURN_RADIUS * plan->body.height, s = walked(plan, k);
+    double bend = (walked(plan, plan->gait.steps) - PI * radius) / 2, angle = clamp((s - bend) / radius, 0, PI);
     double before = fmin(s, bend), after = fmax(0, s - bend - PI * radius);
     step->heading = angle * 180 / PI;
     step->centre = vec(radius * (1 - cos(angle)), 0, before + radius * sin(angle) - after);
@@ -46,14 +60,12 @@ static int steps_before(const GaitPlan *plan) {
     return (plan->gait.steps - plan->gait.stair_count + 1) / 2;
 }
 
-/* Step k of the walk, 0 = the standing walker. */
 static void follow_track(const GaitPlan *plan, int k, GaitStep *step) {
-    double length = 100 * plan->gait.step_length, z = length * (k < plan->gait.steps ? k : k - 1 + LAST_STEP);
-    if (plan->ground.count > 0) {
-        int before = steps_before(plan), over = k - before - plan->ground.count;
-        if (k > before) z = over > 0 ? tread(plan, plan->ground.count) + over * length : tread(plan, k - before);
-    } else if (plan->ground.slope != 0) {
-        z *= cos(plan->ground.slope * PI / 180);
+    double z = walked(plan, k) * cos(plan->ground.slope * PI / 180);
+    int before = steps_before(plan), above = before + plan->ground.count;
+    if (plan->ground.count > 0 && k > before) {
+        z = tread(plan, k < above ? k - before : plan->ground.count);
+        if (k > above) z += walked(plan, k) - walked(plan, above);
     }
     step->centre = vec(0, gait_ground_height(&plan->ground, z), z);
     step->heading = 0;
@@ -73,7 +85,7 @@ static void place_foot(const GaitPlan *plan, int i, double width, GaitStep *step
    against a natural one. */
 static void shape_swing(const GaitPlan *plan, GaitStep *from, GaitStep *to) {
     const GaitGround *ground = &plan->ground;
-    double size = vec_dist(from->foot.ground.t, to->foot.ground.t) / (2 * GAIT_STEP * plan->body.height);
+    double size = vec_dist(from->centre, to->centre) / (2 * GAIT_STEP * plan->body.height);
     from->foot.release = to->foot.contact - GAIT_SWING_TIME;
     from->foot.lift = gait_foot_lift() * fmin(size, 1.1);
     to->foot.strike = gait_foot_strike() * fmin(size, 1.3);
@@ -81,22 +93,28 @@ static void shape_swing(const GaitPlan *plan, GaitStep *from, GaitStep *to) {
     if (ground->count == 0) return;
     to->foot.climb = to->centre.y - from->centre.y;
     if (to->foot.climb == 0) return;
-    to->foot.strike = ground->rise > 0 ? 0 : -18;
-    from->foot.lift = ground->rise > 0 ? -32 : -45;
+    to->foot.strike = ground->rise > 0 ? 0 : STRIKE_DOWN;
+    from->foot.lift = ground->rise > 0 ? LIFT_UP : LIFT_DOWN;
+}
+
+/* Ground as a careful walker sees it: risers are a little thicker than they are. */
+static double cautious_height(const GaitPlan *plan, double z) {
+    double room = 0.5 * RISER_ROOM * plan->body.height;
+    return fmax(gait_ground_height(&plan->ground, z - room), gait_ground_height(&plan->ground, z + room));
 }
 
 /* Lifts the swinging foot over what stands in its way. */
 static void clear_ground(const GaitPlan *plan, const GaitStep *from, GaitStep *to) {
-    const GaitBody *b = &plan->body;
-    double margin = 0.003 * b->height, lift = 0;
-    for (int i = 4; i <= 28; i++) {
-        double x = i / 32.0, weight = gait_foot_clearance(x);
+    const int samples = 64;
+    double room = GROUND_ROOM * plan->body.height, lift = 0;
+    for (int i = samples / 8; i <= samples - samples / 8; i++) {
+        double x = (double)i / samples, weight = gait_foot_clearance(&to->foot, x);
         double t = from->foot.release + x * (to->foot.contact - from->foot.release);
-        FootPose foot = gait_foot_swing(b, &from->foot, &to->foot, t);
+        FootPose foot = gait_foot_swing(&plan->body, &from->foot, &to->foot, t);
         Vec3 sole[GAIT_SOLE];
-        gait_foot_sole(b, &foot, sole);
+        gait_foot_sole(&plan->body, &foot, sole);
         for (int j = 0; j < GAIT_SOLE; j++) {
-            double missing = gait_ground_height(&plan->ground, sole[j].z) + margin * weight - sole[j].y;
+            double missing = cautious_height(plan, sole[j].z) + room * weight - sole[j].y;
             if (missing > 0) lift = fmax(lift, missing / weight);
         }
     }
@@ -105,17 +123,19 @@ static void clear_ground(const GaitPlan *plan, const GaitStep *from, GaitStep *t
 
 bool gait_plan(const Gait *g, Arena *arena, GaitPlan *out, Error *e) {
     *out = (GaitPlan){.gait = *g, .body = gait_body(100 * g->height), .nsteps = g->steps + 3};
-    out->ground = (GaitGround){.slope = g->slope, .rise = 100 * g->stair_rise, .run = 100 * g->stair_run, .count = g->stair_count};
+    out->ground = (GaitGround){g->slope, 0, 100 * g->stair_rise, 100 * g->stair_run, g->stair_count};
     out->step = ARENA_NEW(arena, GaitStep, out->nsteps, e);
     if (!out->step) return false;
     /* The first riser stands so that the last level step ends right before it. */
-    if (g->stair_count > 0) out->ground.first = 100 * g->step_length * steps_before(out) - tread(out, 0);
-    bool turns = g->preset[0] == 't';
+    if (g->stair_count > 0) out->ground.first = walked(out, steps_before(out)) - tread(out, 0);
+    bool turns = strcmp(g->preset, "turn") == 0;
+    if (turns && walked(out, g->steps) < PI * TURN_RADIUS * out->body.height)
+        return error_set(e, ERR_USAGE, "%d steps of %.3g m are too few to turn round", g->steps, g->step_length);
     for (int i = 0; i < out->nsteps; i++) {
         GaitStep *step = out->step + i;
         int k = i < 1 ? 0 : i > g->steps + 1 ? g->steps : i - 1;
         step->foot.side = i % 2;
-        if (turns) follow_turn(out, 100 * g->step_length * k, step);
+        if (turns) follow_turn(out, k, step);
         else follow_track(out, k, step);
         place_foot(out, i, i < 2 || i > g->steps ? STANDING_WIDTH : WALKING_WIDTH, step);
         if (i >= 2) shape_swing(out, step - 2, step);
@@ -141,13 +161,15 @@ static double spline_weight(double away) {
 
 Vec3 gait_plan_centre(const GaitPlan *plan, double t) {
     Vec3 sum = {0, 0, 0};
-    for (int k = (int)floor(t) - 1; k <= (int)floor(t) + 2; k++) sum = vec_mad(sum, between(plan, k).centre, spline_weight(t - k));
+    for (int k = (int)floor(t) - 1; k <= (int)floor(t) + 2; k++)
+        sum = vec_mad(sum, between(plan, k).centre, spline_weight(t - k));
     return sum;
 }
 
 double gait_plan_heading(const GaitPlan *plan, double t) {
     double sum = 0;
-    for (int k = (int)floor(t) - 1; k <= (int)floor(t) + 2; k++) sum += between(plan, k).heading * spline_weight(t - k);
+    for (int k = (int)floor(t) - 1; k <= (int)floor(t) + 2; k++)
+        sum += between(plan, k).heading * spline_weight(t - k);
     return sum;
 }
 

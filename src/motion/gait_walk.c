@@ -19,8 +19,23 @@
 #define ARM_BEHIND 3.0
 #define ARM_OUT 11.0
 
-#define STRAIGHT_KNEE 2.0  /* a leg is never straighter than this */
-#define SMOOTHING 0.34     /* of a step */
+/* On a slope the hips stay somewhere between upright over the feet (0) and at right angles to
+   the ground (1), so that neither leg has to do all the reaching. */
+#define SLOPE_SHIFT 0.6
+
+/* Of the steepness of the way. */
+#define LEAN_UP 0.18
+#define LEAN_DOWN 0.05
+
+/* A leg is never straighter than this, in degrees. Knees that stretch fully and bend again
+   jerk; only the published angles of natural walking go so far. */
+#define STRAIGHT_KNEE 2.0
+#define CAREFUL_KNEE 9.0
+#define BENT_KNEE 155.0 /* nor more bent */
+
+/* How far the hips may come down, in statures, and over which part of a step that is spread. */
+#define LOWEST 0.2
+#define SMOOTHING 0.34
 
 /* On stairs the body rises, or sinks, mainly while one leg carries it: so many steps after
    the feet have, or before them. */
@@ -43,6 +58,14 @@ static double wave(double cycle) {
     return cos(2 * PI * cycle);
 }
 
+/* Leaning into the way: degrees, for the pelvis and the same again for the spine. */
+static double lean(const GaitPlan *plan, double t) {
+    Vec3 way = vec_sub(gait_plan_centre(plan, t + 0.5), gait_plan_centre(plan, t - 0.5));
+    double level = sqrt(way.x * way.x + way.z * way.z);
+    double steepness = atan2(way.y, fmax(level, 0.1 * plan->body.height)) * 180 / PI;
+    return steepness > 0 ? LEAN_UP * steepness : LEAN_DOWN * steepness;
+}
+
 /* Sets place and turn of the hips, without the drop. */
 static void pose_hips(const GaitPlan *plan, const Moment *m, GaitPose *pose) {
     double h = plan->body.height, size = 100 * plan->gait.step_length / (GAIT_STEP * h), lag = STAIR_LAG;
@@ -53,11 +76,12 @@ static void pose_hips(const GaitPlan *plan, const Moment *m, GaitPose *pose) {
     double standing = plan->body.stand / h - STANDING_DROP;
     double rise = standing + m->vigour * size * size * (gait_hip_height(m->cycle) - standing);
     Vec3 ahead = vec(sin(angle), 0, cos(angle)), aside = vec(cos(angle), 0, -sin(angle));
-    centre = vec_mad(centre, ahead, HIPS_AHEAD * h);
+    double aslant = SLOPE_SHIFT * m->vigour * plan->body.stand * sin(plan->gait.slope * PI / 180);
+    centre = vec_mad(centre, ahead, HIPS_AHEAD * h - aslant);
     centre = vec_mad(centre, aside, m->vigour * WAVE_ASIDE * h * wave(m->cycle - 0.31));
     pose->hips = vec(centre.x, centre.y + rise * h, centre.z);
     double turn = -PELVIS_TURN * m->vigour * size * wave(m->cycle), list = m->vigour * gait_pelvis_list(m->cycle);
-    pose->turn[GAIT_HIPS] = vec(0.15 * m->vigour * plan->gait.slope, heading + turn, list);
+    pose->turn[GAIT_HIPS] = vec(lean(plan, m->time), heading + turn, list);
 }
 
 /* The trunk undoes what the pelvis does, the chest turns the other way, the head looks ahead. */
@@ -65,28 +89,39 @@ static void pose_trunk(const GaitPlan *plan, const Moment *m, GaitPose *pose) {
     Vec3 pelvis = pose->turn[GAIT_HIPS];
     double heading = gait_plan_heading(plan, m->time), chest = CHEST_TURN * m->vigour * wave(m->cycle);
     double twist = (chest - (pelvis.y - heading)) / 2;
-    pose->turn[GAIT_SPINE] = vec(1.5 * m->vigour, twist, -0.7 * pelvis.z);
+    pose->turn[GAIT_SPINE] = vec(1.5 * m->vigour + pelvis.x, twist, -0.7 * pelvis.z);
     pose->turn[GAIT_CHEST] = vec(0, twist, -0.3 * pelvis.z);
     pose->turn[GAIT_NECK] = vec(0, -chest / 2, 0);
-    pose->turn[GAIT_HEAD] = vec(-1.5 * m->vigour, -chest / 2, 0);
+    pose->turn[GAIT_HEAD] = vec(-1.5 * m->vigour - 1.5 * pelvis.x, -chest / 2, 0);
 }
 
 static void pose_arms(const GaitPlan *plan, const Moment *m, GaitPose *pose) {
     double swing = plan->gait.arm_swing;
     for (int side = 0; side < GAIT_SIDES; side++) {
         double back = m->vigour * wave(m->cycle + side * 0.5); /* with the own leg ahead */
-        gait_pose_arm(pose, side, -swing * back - ARM_BEHIND * m->vigour, ARM_OUT, 12 + 8 * m->vigour - 0.45 * swing * back);
+        double elbow = 12 + 8 * m->vigour - 0.45 * swing * back;
+        gait_pose_arm(pose, side, -swing * back - ARM_BEHIND * m->vigour, ARM_OUT, elbow);
     }
+}
+
+static double straightest_knee(const GaitPlan *plan) {
+    double size = 100 * plan->gait.step_length / (GAIT_STEP * plan->body.height);
+    double other = fabs(plan->gait.slope) / 10 + (plan->ground.count > 0) + 2 * fmax(0, size - 1);
+    return STRAIGHT_KNEE + (CAREFUL_KNEE - STRAIGHT_KNEE) * fmin(1, other);
 }
 
 /* How far the hips are too high for a foot; negative: not at all. False: too far away at any
    height. */
 static bool excess(const GaitPlan *plan, const GaitPose *pose, int side, Vec3 ankle, double *out) {
     Vec3 hip = gait_pose_hip(&plan->body, pose, side), away = vec_sub(hip, ankle);
-    double reach = gait_leg_length(&plan->body, STRAIGHT_KNEE), level = away.x * away.x + away.z * away.z;
+    double reach = gait_leg_length(&plan->body, straightest_knee(plan)), level = away.x * away.x + away.z * away.z;
     if (level >= reach * reach) return false;
     *out = away.y - sqrt(reach * reach - level);
     return true;
+}
+
+static bool too_far(Error *e) {
+    return error_set(e, ERR_USAGE, "the legs are too short for such steps");
 }
 
 static bool measure_drop(const GaitPlan *plan, int frame, double *drop, Error *e) {
@@ -97,11 +132,10 @@ static bool measure_drop(const GaitPlan *plan, int frame, double *drop, Error *e
     for (int side = 0; side < GAIT_SIDES; side++) {
         double swing, more;
         Vec3 ankle = gait_plan_foot(plan, side, m.time, &swing).frame.t;
-        if (!excess(plan, &pose, side, ankle, &more)) return error_set(e, ERR_USAGE, "the legs are too short for such steps");
+        if (!excess(plan, &pose, side, ankle, &more)) return too_far(e);
         *drop = fmax(*drop, more);
     }
-    if (*drop > 0.3 * plan->body.height) return error_set(e, ERR_USAGE, "the legs are too short for such steps");
-    return true;
+    return *drop < LOWEST * plan->body.height || too_far(e);
 }
 
 /* out[i] = a weighted mean (smooth) or the largest of the neighbours in[i - radius..i + radius]. */
@@ -132,11 +166,11 @@ bool gait_walk(const GaitPlan *plan, Arena *arena, GaitWalk *out, Error *e) {
     return true;
 }
 
-/* A swinging foot comes nearer to the hip, so that the knee bends by so much more. */
+/* A swinging foot comes nearer to the hip, so that the knee bends by nearly so much more. */
 static void lift_knee(const GaitBody *body, Vec3 hip, double degrees, Vec3 *ankle) {
     Vec3 leg = vec_sub(*ankle, hip);
-    double length = vec_len(leg), knee = fmin(gait_leg_knee(body, length) + degrees, 140);
-    *ankle = vec_mad(hip, leg, fmin(1, gait_leg_length(body, knee) / length));
+    double length = vec_len(leg), knee = gait_leg_knee(body, length), room = fmax(1, BENT_KNEE - knee);
+    *ankle = vec_mad(hip, leg, gait_leg_length(body, knee + room * (1 - exp(-degrees / room))) / length);
 }
 
 GaitPose gait_walk_pose(const GaitWalk *walk, int frame) {
@@ -151,7 +185,7 @@ GaitPose gait_walk_pose(const GaitWalk *walk, int frame) {
     for (int side = 0; side < GAIT_SIDES; side++) {
         double swing;
         FootPose foot = gait_plan_foot(plan, side, m.time, &swing);
-        double lift = plan->gait.knee_lift * sin(PI * swing) * sin(PI * swing);
+        double most = sin(PI * pow(swing, 0.6)), lift = plan->gait.knee_lift * most * most; /* early, as the knee is */
         if (lift > 0) lift_knee(&plan->body, gait_pose_hip(&plan->body, &pose, side), lift, &foot.frame.t);
         gait_pose_reach(&plan->body, &pose, side, foot.frame, vec(sin(angle), 0, cos(angle)));
         gait_pose_toe(&pose, side, foot.toe);
