@@ -61,6 +61,7 @@ typedef enum {
     KIND_LIST,   /* TextList: may be repeated */
     KIND_CHOICE, /* int: one of `choices` */
     KIND_SET,    /* unsigned: several of `choices`, separated by commas */
+    KIND_STAIRS, /* Gait: RISE:RUN:COUNT */
     KIND_SPAN,   /* FrameSpan: A, A:B or A:B:STEP */
     KIND_UNIT    /* double: a name in `choices` stands for millimetres, or a number of metres */
 } OptionKind;

@@ -96,7 +96,7 @@ const Option settings_table[] = {
      "print frame,joint,x,y,z of every joint and frame, in the file's units and axes"},
 
     {"preset", 0, KIND_TEXT, FIELD(gait.preset), "NAME", "Walk", COMMAND_WALK,
-     "kind of walk; paper: the walk of the paper's figures", .fallback = "normal", .choices = presets},
+     "kind of walk; paper: that of the comparison of splitting rules", .fallback = "normal", .choices = presets},
     {"steps", 0, KIND_INT, FIELD(gait.steps), "N", "Walk", COMMAND_WALK,
      "steps to walk", .fallback = "what suits the preset", RANGE(1, 10000)},
     {"frames-per-step", 0, KIND_INT, FIELD(gait.frames_per_step), "N", "Walk", COMMAND_WALK,
@@ -104,21 +104,17 @@ const Option settings_table[] = {
     {"height", 0, KIND_REAL, FIELD(gait.height), "M", "Walk", COMMAND_WALK,
      "stature in metres", .fallback = "1.7", RANGE(0.5, 2.5)},
     {"speed", 0, KIND_REAL, FIELD(gait.speed), "M/S", "Walk", COMMAND_WALK,
-     "metres a second", .fallback = "what suits the step", RANGE(0.05, 10)},
+     "metres a second", .fallback = "what suits the step", RANGE(0.05, 5)},
     {"step-length", 0, KIND_REAL, FIELD(gait.step_length), "M", "Walk", COMMAND_WALK,
      "metres from heel to heel", .fallback = "what suits height and preset", RANGE(0.05, 2)},
     {"knee-lift", 0, KIND_REAL, FIELD(gait.knee_lift), "DEG", "Walk", COMMAND_WALK,
-     "how much more the knee bends in swing", .fallback = "0", RANGE(0, 90)},
+     "how much more the knee bends in swing", .fallback = "0", RANGE(0, 60)},
     {"arm-swing", 0, KIND_REAL, FIELD(gait.arm_swing), "DEG", "Walk", COMMAND_WALK,
-     "half the range of the upper arm", .fallback = "the preset's", RANGE(0, 90)},
+     "half the range of the upper arm", .fallback = "the preset's", RANGE(0, 80)},
     {"slope", 0, KIND_REAL, FIELD(gait.slope), "DEG", "Walk", COMMAND_WALK,
-     "of the ground, up is positive", .fallback = "0", RANGE(-40, 40)},
-    {"stairs", 0, KIND_INT, FIELD(gait.stair_count), "N", "Walk", COMMAND_WALK,
-     "steps of a stair", .fallback = "0", RANGE(0, 1000)},
-    {"stair-rise", 0, KIND_REAL, FIELD(gait.stair_rise), "M", "Walk", COMMAND_WALK,
-     "height of each, downwards if negative", .fallback = "0", RANGE(-0.4, 0.4)},
-    {"stair-run", 0, KIND_REAL, FIELD(gait.stair_run), "M", "Walk", COMMAND_WALK,
-     "depth of each", .fallback = "0", RANGE(0, 1)},
+     "of the ground, up is positive", .fallback = "0", RANGE(-35, 35)},
+    {"stairs", 0, KIND_STAIRS, FIELD(gait), "RISE:RUN:COUNT", "Walk", COMMAND_WALK,
+     "height and depth of a stair in metres, and how many; downwards if RISE is negative", .fallback = "none"},
     {"output", 'o', KIND_TEXT, FIELD(output), "FILE", "Output", COMMAND_WALK,
      "BVH file to write", .fallback = "standard output"},
 
@@ -288,6 +284,27 @@ static bool put_span(FrameSpan *field, const Option *option, const char *text, E
     return expected(option, "A:B:STEP with frames from 1 and A <= B", text, e);
 }
 
+/* The walk checks how steep a stair may be; here every part is a number and counts at least 1. */
+static bool put_stairs(Gait *field, const Option *option, const char *text, Error *e) {
+    double part[3] = {0, 0, 0};
+    const char *at = text;
+    int n = 0;
+    for (; n < 3; n++, at++) {
+        size_t length = strcspn(at, ":");
+        if (length == 0 || text_number(at, at + length, &part[n]) != at + length) break;
+        at += length;
+        if (!*at) break;
+    }
+    bool good = n == 2 && !*at && part[0] != 0 && part[1] > 0 && part[2] >= 1 && part[2] <= 1e6;
+    if (!good || part[2] != (int)part[2])
+        return error_set(e, ERR_USAGE, "option '--%s': expected RISE:RUN:COUNT, as in 0.17:0.29:8, found '%s'",
+                         option->name, text);
+    field->stair_rise = part[0];
+    field->stair_run = part[1];
+    field->stair_count = (int)part[2];
+    return true;
+}
+
 bool settings_append(TextList *list, const char *text, Arena *arena, Error *e) {
     if ((list->count & (list->count - 1)) == 0) { /* full at every power of two */
         const char **more = ARENA_NEW(arena, const char *, list->count ? 2 * list->count : 1, e);
@@ -309,6 +326,7 @@ bool settings_put(Settings *s, const Option *option, const char *text, Arena *ar
     case KIND_CHOICE: return put_choice(field, option, text, e);
     case KIND_SET: return put_set(field, option, text, e);
     case KIND_SPAN: return put_span(field, option, text, e);
+    case KIND_STAIRS: return put_stairs(field, option, text, e);
     case KIND_UNIT: return put_unit(field, option, text, e);
     case KIND_TEXT: break;
     }
