@@ -34,6 +34,7 @@ typedef struct {
     FrameSpan frames;
     double rate;                /* resample to so many frames per second */
 
+    int method;                 /* Method */
     int split;                  /* SplitRule */
     int fixed;                  /* 1: --topology fixed */
     int detail, depth;          /* as in DressOptions */

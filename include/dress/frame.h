@@ -6,17 +6,24 @@
 #include "dress/bodyframe.h"
 #include "dress/refine.h"
 
+/* How the local deformation is done: pushing shared vertices out of the body, the paper's way to
+   the letter (dress/literal), or not at all. */
+typedef enum { METHOD_PUSH, METHOD_PAPER, METHOD_GLOBAL } Method;
+
 /* Zero is the default. */
 typedef struct {
+    Method method;
     SplitRule split;
     int detail;           /* facets per side of a root patch; 0 = the garment's, else 8 */
     int depth;            /* levels of splitting, 1..3; 0 = 2 */
-    bool fixed_topology;  /* one grid over every root patch in every frame */
+    bool fixed_topology;  /* one grid over every root patch in every frame; not for METHOD_PAPER */
+    bool plain_tests;     /* also classify without culling, for plain_s */
 } DressOptions;
 
 /* What happened in one frame, a row of stats.csv. Lengths in metres. */
 typedef struct {
     int nodes, leaves, depth;         /* of the classification by the paper's rule */
+    long long tests, tests_culled;    /* its edge-triangle pairs: all, as the paper counts, and what culling leaves */
     int cells;                        /* leaves after the solver refined further */
     int vertices, triangles;          /* of the written mesh */
     long long pairs_all, pairs_tested;/* edge-triangle pairs of all tests of the frame */
@@ -30,6 +37,7 @@ typedef struct {
     bool capped;                      /* a cap (sweeps, rounds, displacement) was reached */
     bool restarted;                   /* carried state dropped: jump in the motion */
     double global_s, test_s, push_s, mesh_s; /* seconds */
+    double classify_s, plain_s;       /* of the classification, a part of test_s; of it without culling */
 } FrameStats;
 
 /* A garment on a figure with the state that is carried from frame to frame. */

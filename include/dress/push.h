@@ -52,6 +52,9 @@ void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *s
    spaces, in sweeps. May be called again after push_raise; adds to *result. */
 void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
 
+/* Instead of solving: leaves the sheet on the global shape. */
+void push_rest(Push *p, const Sheet *sheet);
+
 /* Asks for more clearance at a vertex (chords of a facet can cut the body although its corners
    are outside), then push_settle moves those vertices alone. Returns false where the most is
    reached. */

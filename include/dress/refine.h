@@ -52,16 +52,26 @@ typedef struct {
     Crossing *found;
     int found_capacity;
     CrossingSet set;
+    bool plain;               /* test without culling, to measure against */
 } Classifier;
 
 MUST_CHECK bool classifier_reserve(Classifier *c, const Lattice *lattice, Arena *arena, Error *e);
+
+/* The 2 n^2 facets of a cell whose (n + 1)^2 corners are vertices first, first + 1, ... along w. */
+void facets_of_cell(int n, int first, Triangle *out);
+
+/* Do two of four children (2 * a + b) that share a side both intersect? The paper's stop rule. */
+static inline bool neighbours_hit(const bool hit[4]) {
+    return (hit[0] && hit[1]) || (hit[0] && hit[2]) || (hit[1] && hit[3]) || (hit[2] && hit[3]);
+}
 
 /* The paper's rule on the global shape. A patch is hit if an edge of one of its colliders
    crosses its triangles (detail x detail x 2) or a corner of them lies inside. A patch that is
    hit is split in four, and all four are tested; where two that share a side are hit, splitting
    ends there; else those that are hit are split again, down to the lattice's depth. The
    corners of the leaves that are hit are opened (see leaves_open); the numbers in *out are those
-   of the rule alone. */
+   of the rule alone. count.pairs_all is what the paper counts: nodes x 2 detail^2 x edges of the
+   garment's colliders. */
 void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule rule, Leaves *leaves, Classification *out);
 
 #endif

@@ -13,6 +13,7 @@ typedef struct {
     double time;         /* seconds since the first frame of the motion */
     const char *garment;
     SplitRule split;
+    Method method;
     FrameStats stats;
     double pose_s, write_s;
 } StatsRow;

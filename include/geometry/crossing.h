@@ -42,6 +42,11 @@ void crossing_build_triangles(CrossingSet *set, const Vec3 *position, const Tria
 int crossing_find(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
                   CrossingCount *count);
 
+/* The same pairs in another order, without culling: what a program spends that has no boxes. The
+   yardstick of the experiment. Counts every pair as tested. */
+int crossing_find_plainly(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
+                          CrossingCount *count);
+
 /* Is there any? Stops at the first; adds what it tested to *count. */
 bool crossing_any(const CrossingSet *edges, const CrossingSet *triangles, CrossingCount *count);
 

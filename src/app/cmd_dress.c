@@ -7,6 +7,8 @@
 static bool check_needed(const Settings *s, Error *e) {
     if (s->inputs.count == 0) return error_set(e, ERR_USAGE, "nothing to dress: name a motion or a folder of motions");
     if (s->garments.count == 0) return error_set(e, ERR_USAGE, "nothing to put on: name a garment with -g FILE");
+    if (s->method == METHOD_PAPER && s->fixed)
+        return error_set(e, ERR_USAGE, "'--method paper' has no fixed topology: its patches share nothing");
     if (!s->output) return error_set(e, ERR_USAGE, "no place to write to: name a folder with -o DIR");
     return true;
 }

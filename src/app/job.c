@@ -48,6 +48,7 @@ static double lap(double *since) {
 static bool open_motion(Job *j, Error *e) {
     const Settings *s = j->settings;
     DressOptions options = {.split = (SplitRule)s->split, .detail = s->detail, .depth = s->depth};
+    options.method = (Method)s->method;
     options.fixed_topology = s->fixed != 0;
     if (j->input->is_empty)
         return error_set(e, ERR_INPUT, "no motion (.bvh or .amc) in the folder '%s'", j->input->path);
@@ -126,8 +127,9 @@ static bool dress_frame(Job *j, const TakeFrame *frame, double since, Error *e) 
     if (!write_body(j, frame->number, e)) return false;
     double body_s = lap(&since) / n;
     for (int g = 0; g < n; g++) {
-        StatsRow row = {.frame = frame->number, .time = frame->time, .split = (SplitRule)j->settings->split,
-                        .pose_s = pose_s, .write_s = body_s};
+        StatsRow row = {.frame = frame->number, .time = frame->time, .pose_s = pose_s, .write_s = body_s};
+        row.split = (SplitRule)j->settings->split;
+        row.method = (Method)j->settings->method;
         if (!dress_garment(j, g, frame, &row, e)) return false;
         residual = residual || stats_has_residual(&row.stats);
     }

@@ -11,6 +11,8 @@
 
 static const Choice split_rules[] = {
     {"adaptive", SPLIT_ADAPTIVE}, {"uniform", SPLIT_UNIFORM}, {"none", SPLIT_NONE}, {NULL, 0}};
+static const Choice methods[] = {
+    {"push", METHOD_PUSH}, {"paper", METHOD_PAPER}, {"global", METHOD_GLOBAL}, {NULL, 0}};
 static const Choice topologies[] = {{"adaptive", 0}, {"fixed", 1}, {NULL, 0}};
 static const Choice positions[] = {
     {"guess", POSITION_GUESS}, {"add", POSITION_ADD}, {"replace", POSITION_REPLACE}, {NULL, 0}};
@@ -58,6 +60,9 @@ const Option settings_table[] = {
     {"body-detail", 0, KIND_INT, FIELD(body_detail), "N", "Garments and body", COMMAND_DRESS,
      "facets round each section of the body", .fallback = "16", RANGE(8, 64), .step = 4},
 
+    {"method", 0, KIND_CHOICE, FIELD(method), "NAME", "Method", COMMAND_DRESS,
+     "local deformation: push shared vertices out of the body, the paper's way to the letter, or none",
+     .fallback = "push", .choices = methods},
     {"split", 0, KIND_CHOICE, FIELD(split), "RULE", "Method", COMMAND_DRESS,
      "which patches are split: those that meet the body, all, or none", .fallback = "adaptive",
      .choices = split_rules},

@@ -11,6 +11,7 @@
 
 #include "base/clock.h"
 #include "dress/follow.h"
+#include "dress/literal.h"
 #include "dress/push.h"
 #include "dress/residual.h"
 
@@ -31,6 +32,7 @@ struct Dresser {
     Sheet sheet;
     Push push;
     Tester tester;
+    Literal literal;
     Vec3 *position, *normal; /* of the written mesh */
     unsigned *own;           /* per vertex: parts that must not show */
     double *u, *w;
@@ -80,6 +82,7 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
     if (!d->root || !d->position || !d->normal || !d->own || !d->u || !d->w) return false;
     if (!tester_reserve(&d->tester, 3 * triangles, triangles, arena, e)) return false;
     leaves_fill(&d->grid, depth);
+    if (options->method == METHOD_PAPER && !literal_reserve(&d->literal, &d->lattice, body, arena, e)) return false;
     *out = d;
     return true;
 }
@@ -129,10 +132,11 @@ static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, 
 }
 
 /* The parts that the garment does not collide with, and what lies inside any. */
-static void final_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Residual *own, Residual *other, CrossingCount *count) {
+static void final_test(Dresser *d, const BodyFrame *body, const Vec3 *position, int nvertices, FrameStats *stats, Residual *own,
+                       Residual *other, CrossingCount *count) {
     double start = clock_seconds();
     tester_cross(&d->tester, body, ~d->fit.collide, own, other, count);
-    tester_inside(&d->tester, body, d->position, d->sheet.nvertices, own, other);
+    tester_inside(&d->tester, body, position, nvertices, own, other);
     stats->residual_edges = own->edges;
     stats->residual_cloth = own->cloth;
     stats->inside = own->inside;
@@ -141,6 +145,17 @@ static void final_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Res
     stats->limb_cloth = other->cloth;
     stats->limb_inside = other->inside;
     stats->test_s += clock_seconds() - start;
+}
+
+static void set_groups(Dresser *d, const int *first_of_patch, Mesh *mesh) {
+    for (int g = 0; g < d->ngroups; g++) d->group[g].count = 0;
+    for (int p = d->fit.npatches - 1; p >= 0; p--) {
+        MeshGroup *group = &d->group[d->group_of[p]];
+        group->first = first_of_patch[p];
+        group->count += first_of_patch[p + 1] - first_of_patch[p];
+    }
+    mesh->group = d->group;
+    mesh->ngroups = d->ngroups;
 }
 
 static void fill_mesh(Dresser *d, Mesh *mesh) {
@@ -152,43 +167,87 @@ static void fill_mesh(Dresser *d, Mesh *mesh) {
         d->u[v] = (double)(owner / n % n) / d->lattice.side;
         d->w[v] = (double)(owner % n) / d->lattice.side;
     }
-    for (int g = 0; g < d->ngroups; g++) d->group[g].count = 0;
-    for (int p = d->fit.npatches - 1; p >= 0; p--) {
-        MeshGroup *group = &d->group[d->group_of[p]];
-        group->first = s->first_of_patch[p];
-        group->count += s->first_of_patch[p + 1] - s->first_of_patch[p];
-    }
-    *mesh = (Mesh){.nvertices = s->nvertices, .ntriangles = s->ntriangles, .nedges = s->nedges, .ngroups = d->ngroups,
+    *mesh = (Mesh){.nvertices = s->nvertices, .ntriangles = s->ntriangles, .nedges = s->nedges,
                    .position = d->position, .normal = d->normal, .u = d->u, .w = d->w,
-                   .triangle = s->triangle, .edge = s->edge, .group = d->group};
+                   .triangle = s->triangle, .edge = s->edge};
+    set_groups(d, s->first_of_patch, mesh);
+}
+
+/* The same classification without boxes, for its seconds alone. */
+static double plain_seconds(Dresser *d, const BodyFrame *body) {
+    Classification found;
+    double start = clock_seconds();
+    d->classifier.plain = true;
+    classify(&d->classifier, d->root, body, d->options.split, &d->leaves, &found);
+    d->classifier.plain = false;
+    return clock_seconds() - start;
+}
+
+static void split_by_rule(Dresser *d, const BodyFrame *body, FrameStats *stats, Classification *found) {
+    if (d->options.plain_tests) stats->plain_s = plain_seconds(d, body);
+    double start = clock_seconds();
+    classify(&d->classifier, d->root, body, d->options.split, &d->leaves, found);
+    stats->classify_s = stats->test_s = clock_seconds() - start;
+    stats->nodes = found->nodes;
+    stats->leaves = found->leaves;
+    stats->depth = found->depth;
+    stats->tests = found->count.pairs_all;
+    stats->tests_culled = found->count.pairs_tested;
+}
+
+/* Nothing but the global deformation, tested like all. */
+static void rest_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Residual *own, Residual *other, CrossingCount *count) {
+    double start = clock_seconds();
+    push_start(&d->push, d->root, &d->leaves, &d->sheet);
+    push_rest(&d->push, &d->sheet);
+    snap_points(d, body->unit);
+    *own = *other = (Residual){0};
+    tester_cross(&d->tester, body, d->fit.collide, own, other, count);
+    stats->test_s += clock_seconds() - start;
+}
+
+/* Split, move and repeat as the paper says, then the tests that all methods undergo. */
+static void frame_to_the_letter(Dresser *d, const BodyFrame *body, bool restart, Mesh *mesh, FrameStats *stats) {
+    Literal *l = &d->literal;
+    CrossingCount count = {0};
+    Residual own = {0}, other = {0};
+    literal_frame(l, d->root, body, restart, d->options.split, stats);
+    *mesh = l->mesh;
+    set_groups(d, l->first_of_patch, mesh);
+    double start = clock_seconds();
+    tester_build(&d->tester, mesh->position, mesh->edge, mesh->nedges, mesh->triangle, mesh->ntriangles, l->own);
+    tester_cross(&d->tester, body, d->fit.collide, &own, &other, &count);
+    stats->test_s += clock_seconds() - start;
+    final_test(d, body, mesh->position, mesh->nvertices, stats, &own, &other, &count);
+    stats->pairs_all += count.pairs_all;
+    stats->pairs_tested += count.pairs_tested;
 }
 
 void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, Mesh *mesh, FrameStats *stats) {
     *stats = (FrameStats){.restarted = restart};
     double start = clock_seconds();
     follow_pose(&d->follower, &body->pose, d->root);
-    double followed = clock_seconds();
-    stats->global_s = followed - start;
-
+    stats->global_s = clock_seconds() - start;
+    if (d->options.method == METHOD_PAPER) {
+        frame_to_the_letter(d, body, restart, mesh, stats);
+        return;
+    }
     Classification found;
-    classify(&d->classifier, d->root, body, d->options.split, &d->leaves, &found);
-    double classified = clock_seconds();
-    stats->test_s = classified - followed;
+    split_by_rule(d, body, stats, &found);
 
-    push_carry(&d->push, body, dt, restart, &d->leaves);
+    start = clock_seconds();
+    bool is_global = d->options.method == METHOD_GLOBAL;
+    push_carry(&d->push, body, dt, restart || is_global, &d->leaves);
     tessellate(&d->sheet, d->options.fixed_topology ? &d->grid : &d->leaves);
-    stats->mesh_s = clock_seconds() - classified;
+    stats->mesh_s = clock_seconds() - start;
 
     Residual own, other;
-    push_and_test(d, body, stats, &own, &other, &found.count);
-    final_test(d, body, stats, &own, &other, &found.count);
+    (is_global ? rest_and_test : push_and_test)(d, body, stats, &own, &other, &found.count);
+    final_test(d, body, d->position, d->sheet.nvertices, stats, &own, &other, &found.count);
 
     start = clock_seconds();
     fill_mesh(d, mesh);
     stats->mesh_s += clock_seconds() - start;
-    stats->nodes = found.nodes;
-    stats->leaves = found.leaves;
-    stats->depth = found.depth;
     stats->cells = leaves_count(&d->leaves);
     stats->vertices = d->sheet.nvertices;
     stats->triangles = d->sheet.ntriangles;

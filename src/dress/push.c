@@ -284,6 +284,11 @@ void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *s
     }
 }
 
+void push_rest(Push *p, const Sheet *sheet) {
+    p->nsamples = 0;
+    for (int v = 0; v < sheet->nvertices; v++) p->point[v] = p->global[v];
+}
+
 void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
     for (int round = 0; round < ROUNDS_MAX; round++) {
         find_samples(p, body, sheet);

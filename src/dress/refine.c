@@ -76,7 +76,7 @@ static void cell_points(const Lattice *l, const Patch *root, LatticeCell cell, i
     }
 }
 
-static void cell_triangles(int n, int first, Triangle *out) {
+void facets_of_cell(int n, int first, Triangle *out) {
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             int a = first + i * (n + 1) + j, b = a + n + 1;
@@ -100,7 +100,7 @@ static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, 
     for (int k = 0; k < ncells; k++) {
         unsigned parts = l->fit->patch[c->cell[k].patch].collide;
         cell_points(l, &root[c->cell[k].patch], c->cell[k], level, c->position + k * npoints);
-        cell_triangles(n, k * npoints, c->triangle + k * ntriangles);
+        facets_of_cell(n, k * npoints, c->triangle + k * ntriangles);
         c->hit[k] = any_inside(body, parts, c->position + k * npoints, npoints);
     }
     if (body->unit != 1)
@@ -108,7 +108,9 @@ static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, 
     crossing_build_triangles(&c->set, c->position, c->triangle, ncells * ntriangles);
     for (int p = 0; p < body->body->nparts; p++) {
         if (!(l->fit->collide & part_bit(body, p))) continue;
-        int before = out->count.hits, found = crossing_find(&body->edges[p], &c->set, c->found, c->found_capacity, &out->count);
+        int before = out->count.hits;
+        int found = (c->plain ? crossing_find_plainly : crossing_find)(&body->edges[p], &c->set, c->found, c->found_capacity,
+                                                                       &out->count);
         if (found < out->count.hits - before) out->capped = true;
         for (int k = 0; k < found; k++) {
             int cell = c->found[k].triangle / ntriangles;
@@ -117,11 +119,6 @@ static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, 
     }
     if (level == 0 || out->nodes == 0) out->hits += out->count.hits;
     out->nodes += ncells;
-}
-
-/* Do two of four children that share a side both intersect? (The paper's stop rule.) */
-static bool neighbours_hit(const bool hit[4]) {
-    return (hit[0] && hit[1]) || (hit[0] && hit[2]) || (hit[1] && hit[3]) || (hit[2] && hit[3]);
 }
 
 /* Cells to split next, as the list of their children's parents: those hit at the top level, and

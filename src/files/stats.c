@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <string.h>
 
-typedef enum { KIND_INT, KIND_LONG, KIND_FLAG, KIND_REAL, KIND_SECONDS, KIND_TEXT, KIND_SPLIT } Kind;
+typedef enum { KIND_INT, KIND_LONG, KIND_FLAG, KIND_REAL, KIND_SECONDS, KIND_TEXT, KIND_SPLIT, KIND_METHOD } Kind;
 
 /* kind SECONDS is measured time, which `times` may leave out. */
 typedef struct {
@@ -53,6 +53,9 @@ static const Column frame_columns[] = {
     {"push_s", "s", KIND_SECONDS, AT(stats.push_s), "local deformation"},
     {"mesh_s", "s", KIND_SECONDS, AT(stats.mesh_s), "making the mesh"},
     {"write_s", "s", KIND_SECONDS, AT(write_s), "writing it"},
+    {"method", "", KIND_METHOD, AT(method), "local deformation: push, paper or global (none)"},
+    {"tests", "", KIND_LONG, AT(stats.tests), "edge-triangle pairs of the classification, all, as the paper counts"},
+    {"tests_culled", "", KIND_LONG, AT(stats.tests_culled), "those of them that culling left to be tested"},
 };
 #undef AT
 
@@ -138,6 +141,7 @@ static void put_real(double x, FILE *out) {
 static void put_cell(const Column *c, const void *row, FILE *out) {
     static const char *const rules[] = {
         [SPLIT_ADAPTIVE] = "adaptive", [SPLIT_UNIFORM] = "uniform", [SPLIT_NONE] = "none"};
+    static const char *const methods[] = {[METHOD_PUSH] = "push", [METHOD_PAPER] = "paper", [METHOD_GLOBAL] = "global"};
     const void *at = (const char *)row + c->at;
     switch (c->kind) {
     case KIND_INT: fprintf(out, "%d", *(const int *)at); break;
@@ -147,6 +151,7 @@ static void put_cell(const Column *c, const void *row, FILE *out) {
     case KIND_SECONDS: put_real(*(const double *)at, out); break;
     case KIND_TEXT: put_text(*(const char *const *)at, out); break;
     case KIND_SPLIT: fputs(rules[*(const SplitRule *)at], out); break;
+    case KIND_METHOD: fputs(methods[*(const Method *)at], out); break;
     }
 }
 

@@ -253,9 +253,12 @@ static int top_tiles(const CrossingSet *set) {
 /* The slack: with u = 2^-24 and M the reach of both sets, |n|1 <= 1 makes n x of rounded n and
    rounded x, in three products and two sums, err by at most 6 u M, and w and the difference
    by 2 u M more; 16 u M is ample. FLT_MIN covers what underflows. */
+static float slack_of(const Search *s) {
+    return 8 * FLT_EPSILON * larger(s->edges->reach, s->triangles->reach) + FLT_MIN;
+}
+
 static int search(Search *s) {
-    float reach = larger(s->edges->reach, s->triangles->reach);
-    s->slack = 8 * FLT_EPSILON * reach + FLT_MIN;
+    s->slack = slack_of(s);
     s->count->pairs_all += (long long)s->edges->count * s->triangles->count;
     for (int i = 0; i < top_tiles(s->edges); i++)
         for (int j = 0; j < top_tiles(s->triangles); j++)
@@ -267,6 +270,25 @@ int crossing_find(const CrossingSet *edges, const CrossingSet *triangles, Crossi
                   CrossingCount *count) {
     Search s = {edges, triangles, .out = out, .capacity = capacity, .count = count};
     return search(&s);
+}
+
+/* Sixteen segments against a plane, triangle by triangle; what reaches it is decided. */
+int crossing_find_plainly(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
+                          CrossingCount *count) {
+    Search s = {edges, triangles, .out = out, .capacity = capacity, .count = count};
+    long long pairs = (long long)edges->count * triangles->count;
+    s.slack = slack_of(&s);
+    count->pairs_all += pairs;
+    count->pairs_tested += pairs;
+    for (int triangle = 0; triangle < triangles->count; triangle++)
+        for (int i = 0; i < tiles(edges->count); i++) {
+            const CrossingSieve *plane = &triangles->sieve[triangle / LANES];
+            unsigned found = lane_bits(reaching(&edges->sieve[i], plane, triangle % LANES, s.slack));
+            int left = edges->count - i * LANES;
+            if (left < LANES) found &= (1u << left) - 1;
+            for (; found; found &= found - 1) decide(&s, i * LANES + lowest_lane(found), triangle);
+        }
+    return s.written;
 }
 
 bool crossing_any(const CrossingSet *edges, const CrossingSet *triangles, CrossingCount *count) {
