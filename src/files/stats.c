@@ -47,15 +47,15 @@ static const Column frame_columns[] = {
     {"capped", "", KIND_FLAG, AT(stats.capped), "1: a cap of sweeps, rounds or displacement was reached"},
     {"restarted", "", KIND_FLAG, AT(stats.restarted),
      "1: the shape of the frame before was forgotten, the motion jumps"},
+    {"method", "", KIND_METHOD, AT(method), "local deformation: push, paper or global (none)"},
+    {"tests", "", KIND_LONG, AT(stats.tests), "edge-triangle pairs of the classification, all, as the paper counts"},
+    {"tests_culled", "", KIND_LONG, AT(stats.tests_culled), "those of them that culling left to be tested"},
     {"pose_s", "s", KIND_SECONDS, AT(pose_s), "posing the body, shared by all garments"},
     {"global_s", "s", KIND_SECONDS, AT(stats.global_s), "global deformation"},
     {"test_s", "s", KIND_SECONDS, AT(stats.test_s), "intersection tests"},
     {"push_s", "s", KIND_SECONDS, AT(stats.push_s), "local deformation"},
     {"mesh_s", "s", KIND_SECONDS, AT(stats.mesh_s), "making the mesh"},
     {"write_s", "s", KIND_SECONDS, AT(write_s), "writing it"},
-    {"method", "", KIND_METHOD, AT(method), "local deformation: push, paper or global (none)"},
-    {"tests", "", KIND_LONG, AT(stats.tests), "edge-triangle pairs of the classification, all, as the paper counts"},
-    {"tests_culled", "", KIND_LONG, AT(stats.tests_culled), "those of them that culling left to be tested"},
 };
 #undef AT
 
