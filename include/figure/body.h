@@ -73,7 +73,13 @@ typedef struct {
     Patch *patch;             /* skin patches, canonical stance */
     double scale;             /* girth of this figure against the reference */
     double height;            /* of the figure */
+    double hips, shoulders;   /* breadths of the trunk against the reference's at this girth */
+    double hip_y, shoulder_y; /* where these hold, canonical stance */
 } Body;
+
+/* Breadth of the trunk at height y of the canonical stance against the reference's at this
+   girth: 1 for usual proportions. */
+double body_breadth(const Body *b, double y);
 
 /* Sizes the body to a figure: lengths follow its bones, girths its height and build. detail:
    number of facets round a section, a multiple of 4 (16 gives about 8,000 triangles). Closed

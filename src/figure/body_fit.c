@@ -98,10 +98,9 @@ static double length_of(const Sizes *s, Role role) {
 }
 
 /* The hips' factor at the hip joints, the shoulders' at theirs, a waist of the usual width. */
-static double torso_width(const Sizes *s, double height) {
-    double hip = s->figure->start[ROLE_LEFT_THIGH].y, shoulder = s->figure->start[ROLE_LEFT_UPPER_ARM].y;
-    double t = shoulder > hip ? clamp((height - hip) / (shoulder - hip), 0, 1) : 0;
-    return 1 + (1 - t) * (1 - t) * (s->hips - 1) + t * t * (s->shoulders - 1);
+double body_breadth(const Body *b, double y) {
+    double t = b->shoulder_y > b->hip_y ? clamp((y - b->hip_y) / (b->shoulder_y - b->hip_y), 0, 1) : 0;
+    return 1 + (1 - t) * (1 - t) * (b->hips - 1) + t * t * (b->shoulders - 1);
 }
 
 /* Thighs of narrow hips make room for each other; towards the knee they come back to the bone. */
@@ -128,12 +127,12 @@ static double place_along(double at, double length, double reference) {
     return at < 0 ? at * reference : at > 1 ? length + (at - 1) * reference : at * length;
 }
 
-static void size_section(const Sizes *s, const BodyPart *part, const Section *spec, Section *out) {
+static void size_section(const Sizes *s, const Body *body, const BodyPart *part, const Section *spec, Section *out) {
     double girth = s->girth[build_of(part->role)], at = spec->at;
     double y = place_along(at, part->length, extent(&s->reference, part->role) * girth);
     *out = (Section){y, spec->x * girth, spec->z * girth, spec->side * girth, spec->front * girth, spec->back * girth};
     switch (part->role) {
-    case ROLE_PELVIS: case ROLE_SPINE: case ROLE_CHEST: out->side *= torso_width(s, part->frame.t.y + y); break;
+    case ROLE_PELVIS: case ROLE_SPINE: case ROLE_CHEST: out->side *= body_breadth(body, part->frame.t.y + y); break;
     case ROLE_LEFT_UPPER_ARM: out->x -= arm_shift(s, at); break;
     case ROLE_RIGHT_UPPER_ARM: out->x += arm_shift(s, at); break;
     case ROLE_LEFT_THIGH: out->x -= thigh_shift(s, out->side, at); break;
@@ -152,6 +151,10 @@ bool body_fit(const BodySpec *spec, const Figure *figure, int detail, Arena *are
     out->nparts = spec->nparts;
     out->height = figure->height;
     out->scale = s.girth[BUILD_TORSO];
+    out->hips = s.hips;
+    out->shoulders = s.shoulders;
+    out->hip_y = figure->start[ROLE_LEFT_THIGH].y;
+    out->shoulder_y = figure->start[ROLE_LEFT_UPPER_ARM].y;
     for (int i = 0; i < spec->nparts; i++) {
         const BodyPartSpec *from = &spec->part[i];
         BodyPart *part = &out->part[i];
@@ -160,7 +163,7 @@ bool body_fit(const BodySpec *spec, const Figure *figure, int detail, Arena *are
         part->frame = part_frame(figure, from->role);
         part->length = length_of(&s, from->role);
         part->nsections = from->nsections;
-        for (int k = 0; k < from->nsections; k++) size_section(&s, part, &from->section[k], &part->section[k]);
+        for (int k = 0; k < from->nsections; k++) size_section(&s, out, part, &from->section[k], &part->section[k]);
         double girth = s.girth[build_of(part->role)], cap[2] = {from->cap[0] * girth, from->cap[1] * girth};
         body_part_close(part, cap);
     }

@@ -21,6 +21,7 @@ typedef struct {
     Arena *arena;
     int node_of[GARMENT_RINGS_MAX][STATION_COUNT];
     Frame ring[GARMENT_RINGS_MAX];
+    Vec3 measure[GARMENT_RINGS_MAX]; /* what the file's lengths are multiplied with at a ring */
     int private_names; /* given to points that nobody shares: -1, -2, ... */
 } Tailor;
 
@@ -45,6 +46,18 @@ static Section round_both_legs(const BodyPart *part, const BodyPart *twin, doubl
     return s;
 }
 
+/* What lengths of the file are multiplied with at a ring, axis by axis: the girth, on the trunk
+   also its breadth there and, along it, the length of its bone against the reference's. */
+static Vec3 measure_at(const Tailor *t, const BodyPart *part, double at) {
+    double scale = t->body->scale;
+    if (part->role > ROLE_CHEST) return vec(scale, scale, scale);
+    Figure reference = figure_reference();
+    double usual = reference.end[part->role].y - reference.start[part->role].y;
+    return vec(scale * body_breadth(t->body, part->frame.t.y + at * part->length), part->length / usual, scale);
+}
+
+static Vec3 by_axis(Vec3 a, Vec3 b) { return vec(a.x * b.x, a.y * b.y, a.z * b.z); }
+
 static bool place_ring(Tailor *t, int r, Error *e) {
     const Ring *ring = &t->g->ring[r];
     const BodyPart *part = part_of(t->body, ring->part);
@@ -52,6 +65,7 @@ static bool place_ring(Tailor *t, int r, Error *e) {
         return error_set(e, ERR_INPUT, "garment '%s': ring '%s' is on '%s', which the body does not have", t->g->name,
                          ring->name, role_name(ring->part));
     double scale = t->body->scale, ease = ring->ease * scale;
+    Vec3 measure = t->measure[r] = measure_at(t, part, ring->at);
     Section s = body_section(part, ring->at);
     Vec3 centre = rigid_apply(part->frame, vec(s.x, ring->at * part->length, s.z));
     Vec3 x = mat_column(part->frame.r, 0), z = mat_column(part->frame.r, 2);
@@ -65,14 +79,15 @@ static bool place_ring(Tailor *t, int r, Error *e) {
         z = vec(0, 0, 1);
     }
     if (ring->has_size) {
-        s.side = fmax(ring->side * scale, least);
-        s.front = ring->front * scale;
-        s.back = ring->back * scale;
+        s.side = fmax(ring->side * measure.x, least);
+        s.front = ring->front * measure.z;
+        s.back = ring->back * measure.z;
     }
     Mat3 tilt = mat_axis_angle(vec(0, 0, 1), ring->tilt * PI / 180);
     Frame *f = &t->ring[r];
-    f->centre = vec_mad(centre, ring->shift, scale);
+    f->centre = vec_add(centre, by_axis(ring->shift, measure));
     f->side = vec_scale(mat_apply(tilt, x), s.side + ease);
+    f->side.y *= measure.y / measure.x; /* what is given in breadths stands in lengths there */
     f->front = vec_scale(mat_apply(tilt, z), s.front + ease);
     f->back = vec_scale(mat_apply(tilt, z), s.back + ease);
     t->fit->ring[r] = (FitRing){f->centre.y, s.side + ease, s.front + ease, s.back + ease, f->centre.x, f->centre.z};
@@ -93,7 +108,7 @@ static Vec3 station_rest(const Tailor *t, int r, Station s) {
     double unit[2];
     station_unit(s, unit);
     Vec3 p = vec_add(t->ring[r].centre, ring_vector(&t->ring[r], unit[0], unit[1]));
-    return vec_mad(p, t->g->ring[r].move[s], t->body->scale);
+    return vec_add(p, by_axis(t->g->ring[r].move[s], t->measure[r]));
 }
 
 static Binding binding_or_own(const Ring *ring, Station s) {
