@@ -106,35 +106,42 @@ static void sole(const Take *t, int frame, int side, Vec3 *point) {
     point[TIP] = rigid_apply(toe, vec(0, -0.011 * h, 0.043 * h));
 }
 
-/* Lowest height of any point of the soles over the ground, and how far a point moves while it
-   stays within a millimetre of it (for a stature of 1.70 m). Centimetres. */
-static void measure_feet(const Take *t, const Ground *ground, double *lowest, double *slide) {
+/* Centimetres: lowest height of any point of the soles over the ground; how far a point moves
+   while it stays within a millimetre of it (for a stature of 1.70 m); and how high the lower
+   foot ever gets. */
+typedef struct { double lowest, slide, floating; } Feet;
+
+static Feet measure_feet(const Take *t, const Ground *ground) {
+    Feet feet = {INFINITY, 0, -INFINITY};
     double near = 0.1 * t->height / 170;
     Vec3 start[2][SOLE] = {{{0, 0, 0}}};
     bool down[2][SOLE] = {{false}};
-    *lowest = INFINITY;
-    *slide = 0;
-    for (int f = 0; f < t->motion.nframes; f++)
-        for (int side = 0; side < 2; side++) {
+    for (int f = 0; f < t->motion.nframes; f++) {
+        double lower = INFINITY;
+        for (int i = 0; i < 2 * SOLE; i++) {
+            int side = i / SOLE, part = i % SOLE;
             Vec3 point[SOLE];
             sole(t, f, side, point);
-            for (int i = 0; i < SOLE; i++) {
-                double height = point[i].y - ground_height(ground, point[i].z);
-                *lowest = fmin(*lowest, height);
-                if (fabs(height) > near) down[side][i] = false;
-                else if (!down[side][i]) start[side][i] = point[i];
-                if (fabs(height) <= near) down[side][i] = true;
-                if (down[side][i]) *slide = fmax(*slide, vec_dist(start[side][i], point[i]));
-            }
+            double height = point[part].y - ground_height(ground, point[part].z);
+            lower = fmin(lower, height);
+            bool touches = fabs(height) <= near;
+            if (touches && !down[side][part]) start[side][part] = point[part];
+            down[side][part] = touches;
+            if (touches) feet.slide = fmax(feet.slide, vec_dist(start[side][part], point[part]));
         }
+        feet.lowest = fmin(feet.lowest, lower);
+        feet.floating = fmax(feet.floating, lower);
+    }
+    return feet;
 }
 
 static void test_feet(const char *what, const Gait *g, Ground ground) {
     Take t;
-    double lowest = -INFINITY, slide = INFINITY;
-    if (take_open(g, &t)) measure_feet(&t, &ground, &lowest, &slide);
-    OK(lowest > -0.05, "%s: no sole is below the ground (%.3f cm)", what, lowest);
-    OK(slide < 0.5, "%s: what touches the ground stays there (%.3f cm)", what, slide);
+    Feet feet = {-INFINITY, INFINITY, INFINITY};
+    if (take_open(g, &t)) feet = measure_feet(&t, &ground);
+    OK(feet.lowest > -0.05, "%s: no sole is below the ground (%.3f cm)", what, feet.lowest);
+    OK(feet.slide < 0.5, "%s: what touches the ground stays there (%.3f cm)", what, feet.slide);
+    OK(feet.floating < 0.05, "%s: a foot is always on the ground (%.3f cm)", what, feet.floating);
     take_close(&t);
 }
 
@@ -144,12 +151,12 @@ static double find_riser(const Gait *g) {
     Take t;
     double riser = NAN;
     if (!take_open(g, &t)) return NAN;
-    double way = place(&t, t.motion.nframes - 1, 0).t.z, up = g->stair_rise > 0;
+    double way = place(&t, t.motion.nframes - 1, 0).t.z;
+    bool up = g->stair_rise > 0;
     for (double z = 0; z < way; z += 0.25) {
-        double lowest, slide, first = up ? z : way - z;
+        double first = up ? z : way - z;
         Ground ground = {0, first, 100 * g->stair_rise, 100 * g->stair_run, g->stair_count};
-        measure_feet(&t, &ground, &lowest, &slide);
-        if (lowest > -0.05) {
+        if (measure_feet(&t, &ground).lowest > -0.05) {
             riser = first;
             break;
         }
@@ -183,6 +190,9 @@ static void test_all_feet(void) {
     test_feet("level", &g, (Ground){0});
     g = gait("brisk");
     test_feet("brisk", &g, (Ground){0});
+    g = gait("normal");
+    g.step_length = 0.95;
+    test_feet("the longest steps", &g, (Ground){0});
     g = gait("turn");
     test_feet("turn", &g, (Ground){0});
     g = gait("squat");

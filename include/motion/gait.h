@@ -1,8 +1,10 @@
 /* Walking motions made from normative gait data, written as BVH.
 
    Body: segment lengths as fractions of stature after Drillis and Contini (1966), as printed
-   in Winter, Biomechanics and Motor Control of Human Movement, fig. 4.1. The joint curves
-   and their sources stand in motion/gait_curves.h. */
+   in Winter, Biomechanics and Motor Control of Human Movement, fig. 4.1. Natural walking
+   follows the joint angles of Bovi et al. (2011) within 5 degrees; the table stands in
+   src/motion/gait_curves.c. In the file the x rotations are: UpLeg = 9 - hip (the published
+   hip is measured from a pelvis that stands 9 degrees forward), Leg = knee, Foot = -ankle. */
 #ifndef MOTION_GAIT_H
 #define MOTION_GAIT_H
 

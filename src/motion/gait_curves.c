@@ -1,8 +1,9 @@
-/* Normative sagittal angles of 20 adults walking at their natural speed: Bovi, Rabuffetti,
-   Mazzoleni, Ferrarin, "A multiple-task gait analysis approach: kinematic, kinetic and EMG
-   reference data for healthy young and adult subjects", Gait & Posture 33 (2011) 6-13. Group
-   means, a value every 2 % of the stride from heel contact. The ankle is given against quiet
-   standing (the publication's foot axis lies 20 degrees below the sole). */
+/* Normative sagittal angles of 20 adults (22 to 72 years) at self-selected speed: Bovi,
+   Rabuffetti, Mazzoleni, Ferrarin, "A multiple-task gait analysis approach: kinematic, kinetic
+   and EMG reference data for healthy young and adult subjects", Gait & Posture 33 (2011) 6-13.
+   Group means every 2 % of the stride from heel contact, as the gait simulator SCONE bundles
+   them; like there, 20 degrees are added to the ankle, so that a flat foot under an upright
+   shin has 0 (the marker axis of the foot points that much below the sole). */
 #include "motion/gait_curves.h"
 
 #include "geometry/vec.h"
