@@ -51,7 +51,8 @@ static bool same_panel(const Panel *a, const Panel *b) {
 
 static bool same_patch(const RawPatch *a, const RawPatch *b) {
     bool same = strcmp(a->name, b->name) == 0;
-    for (int k = 0; k < 16; k++) same = same && same_vec(a->point[k], b->point[k]) && same_binding(&a->binding[k], &b->binding[k]);
+    for (int k = 0; k < 16; k++)
+        same = same && same_vec(a->point[k], b->point[k]) && same_binding(&a->binding[k], &b->binding[k]);
     return same;
 }
 
@@ -65,9 +66,10 @@ static bool same_collide(const Collide *a, const Collide *b) {
 }
 
 static bool same_garment(const Garment *a, const Garment *b) {
-    bool same = strcmp(a->name, b->name) == 0 && a->follow == b->follow && a->loose == b->loose && a->detail == b->detail &&
-                a->nrings == b->nrings && a->npanels == b->npanels && a->npatches == b->npatches && a->nseams == b->nseams &&
-                a->njoins == b->njoins && a->ncollides == b->ncollides && a->npins == b->npins;
+    bool same = strcmp(a->name, b->name) == 0 && a->follow == b->follow && a->loose == b->loose &&
+                a->detail == b->detail && a->nrings == b->nrings && a->npanels == b->npanels &&
+                a->npatches == b->npatches && a->nseams == b->nseams && a->njoins == b->njoins &&
+                a->ncollides == b->ncollides && a->npins == b->npins;
     for (int i = 0; same && i < a->nrings; i++) same = same_ring(&a->ring[i], &b->ring[i]);
     for (int i = 0; same && i < a->npanels; i++) same = same_panel(&a->panel[i], &b->panel[i]);
     for (int i = 0; same && i < a->npatches; i++) same = same_patch(&a->patch[i], &b->patch[i]);
@@ -103,50 +105,67 @@ static void reads_rings(void) {
     OK(same_vec(r->shift, vec(0.1, -0.2, 0.3)) && same_vec(r->move[STATION_BACK], vec(0, 0, -0.05)), "shift and move");
     const Binding *own = &r->binding[STATION_LEFT], *all = &r->binding[STATION_RIGHT];
     OK(all->n == 2 && all->weight[0] == 0.75 && all->weight[1] == 0.25, "weights are made to sum to 1");
-    OK(own->n == 1 && own->bone[0] == ROLE_LEFT_THIGH && own->weight[0] == 1, "a station's own binding wins over its ring's");
+    OK(own->n == 1 && own->bone[0] == ROLE_LEFT_THIGH && own->weight[0] == 1,
+       "a station's own binding wins over its ring's");
     OK(g->ring[1].binding[0].n == 0, "a ring without bind has no binding");
     OK(g->follow == FOLLOW_BONES && !g->loose && g->detail == 0, "defaults: bones, tight, no detail");
 }
 
 static void reads_pieces(void) {
-    const Garment *g = parse_good("garment g\r\nfollow bones\r\nfit loose\r\ndetail 9\r\npatch s\r\n" FLAT "patch t\n" NEXT
-                                  "seam s.end t.start crease\npin s.top\ncollide t pelvis head\n"
-                                  "ring a pelvis 1\nring b pelvis 0\npanel p\nrow a left front\nrow b left front # end\npin a\n"
-                                  "collide b..a chest");
+    const Garment *g =
+        parse_good("garment g\r\nfollow bones\r\nfit loose\r\ndetail 9\r\npatch s\r\n" FLAT "patch t\n" NEXT
+                   "seam s.end t.start crease\npin s.top\ncollide t pelvis head\n"
+                   "ring a pelvis 1\nring b pelvis 0\npanel p\nrow a left front\nrow b left front # end\npin a\n"
+                   "collide b..a chest");
     if (!OK(g, "patches before panels, CRLF, comment, no last newline")) return;
     OK(g->loose && g->detail == 9 && g->npanels == 1 && g->npatches == 2, "fit, detail and pieces");
     OK(g->seam[0].piece_a == 1 && g->seam[0].piece_b == 2 && g->seam[0].crease, "pieces are numbered panels first");
-    OK(g->pin[0].ring == -1 && g->pin[0].piece == 1 && g->pin[0].side == SIDE_TOP && g->pin[1].ring == 0, "pins of a side and of a ring");
-    OK(g->collide[0].piece == 2 && g->collide[0].parts == (1u << ROLE_PELVIS | 1u << ROLE_HEAD), "colliders of a piece");
-    OK(g->collide[1].from_ring == 1 && g->collide[1].to_ring == 0 && g->collide[1].piece == -1, "colliders between two rings");
-    OK(g->panel[0].row[0].via == STATION_NONE && g->panel[0].row[0].from == STATION_LEFT && g->panel[0].row[0].to == STATION_FRONT, "a quarter arc");
-    OK(garment_find_piece(g, "t") == 2 && garment_find_piece(g, "a") == -1 && garment_find_ring(g, "b") == 1, "things are found by name");
+    OK(g->pin[0].ring == -1 && g->pin[0].piece == 1 && g->pin[0].side == SIDE_TOP && g->pin[1].ring == 0,
+       "pins of a side and of a ring");
+    OK(g->collide[0].piece == 2 && g->collide[0].parts == (1u << ROLE_PELVIS | 1u << ROLE_HEAD),
+       "colliders of a piece");
+    OK(g->collide[1].from_ring == 1 && g->collide[1].to_ring == 0 && g->collide[1].piece == -1,
+       "colliders between two rings");
+    OK(g->panel[0].row[0].via == STATION_NONE && g->panel[0].row[0].from == STATION_LEFT &&
+           g->panel[0].row[0].to == STATION_FRONT,
+       "a quarter arc");
+    OK(garment_find_piece(g, "t") == 2 && garment_find_piece(g, "a") == -1 && garment_find_ring(g, "b") == 1,
+       "things are found by name");
 }
 
 static void mirrors(void) {
-    const Garment *g = parse_good("garment g\nring waist pelvis 1\nring left_leg left_thigh .5 size .1 .2 .3 shift .01 0 .02 tilt 5\n"
+    const Garment *g =
+        parse_good("garment g\nring waist pelvis 1\nring left_leg left_thigh .5 size .1 .2 .3 shift .01 0 .02 tilt 5\n"
                    "move left_leg.right .03 .04 .05\nbind left_leg.left left_thigh .75 pelvis .25\n"
                    "panel left_p\nrow waist left front\nrow left_leg left front right\npatch left_s\n" FLAT
                    "panel left_q\nrow waist left back\nrow left_leg left back right\nseam left_p.start left_q.start\n"
-                   "pin left_p.start\npin waist\ncollide waist..left_leg pelvis left_thigh\ncollide left_s left_hand\nmirror left_ right_\n"
+                   "pin left_p.start\npin waist\ncollide waist..left_leg pelvis left_thigh\ncollide left_s "
+                   "left_hand\nmirror left_ right_\n"
                    "join left_leg.right right_leg.left\n");
     if (!OK(g, "a half garment is mirrored")) return;
     const Ring *r = &g->ring[2];
-    OK(g->nrings == 3 && strcmp(r->name, "right_leg") == 0 && r->part == ROLE_RIGHT_THIGH, "ring: name and part change sides");
+    OK(g->nrings == 3 && strcmp(r->name, "right_leg") == 0 && r->part == ROLE_RIGHT_THIGH,
+       "ring: name and part change sides");
     OK(same_vec(r->shift, vec(-.01, 0, .02)) && r->tilt == -5 && r->side == .1, "ring: x and tilt change sign");
-    OK(same_vec(r->move[STATION_LEFT], vec(-.03, .04, .05)) && same_vec(r->move[STATION_RIGHT], vec(0, 0, 0)), "moves change stations");
-    OK(r->binding[STATION_RIGHT].bone[0] == ROLE_RIGHT_THIGH && r->binding[STATION_RIGHT].bone[1] == ROLE_PELVIS && r->binding[STATION_LEFT].n == 0,
+    OK(same_vec(r->move[STATION_LEFT], vec(-.03, .04, .05)) && same_vec(r->move[STATION_RIGHT], vec(0, 0, 0)),
+       "moves change stations");
+    OK(r->binding[STATION_RIGHT].bone[0] == ROLE_RIGHT_THIGH && r->binding[STATION_RIGHT].bone[1] == ROLE_PELVIS &&
+           r->binding[STATION_LEFT].n == 0,
        "bindings change stations and bones");
     OK(g->npanels == 4 && g->npatches == 2, "panels and patches have an image");
     const Panel *p = &g->panel[garment_find_piece(g, "right_p")];
-    OK(p->row[0].ring == 0 && p->row[0].from == STATION_RIGHT && p->row[0].to == STATION_FRONT && p->row[1].ring == 2 && p->row[1].to == STATION_LEFT,
+    OK(p->row[0].ring == 0 && p->row[0].from == STATION_RIGHT && p->row[0].to == STATION_FRONT && p->row[1].ring == 2 &&
+           p->row[1].to == STATION_LEFT,
        "rows: a shared ring stays, its stations change sides");
     const RawPatch *s = &g->patch[1];
     OK(strcmp(s->name, "right_s") == 0 && s->point[15].x == -.3 && s->point[15].y == .7, "raw patch: x changes sign");
     OK(!signbit(s->point[0].x), "zero stays +0");
-    OK(g->npins == 3 && g->pin[2].piece == garment_find_piece(g, "right_p") && g->pin[0].piece == garment_find_piece(g, "left_p"),
+    OK(g->npins == 3 && g->pin[2].piece == garment_find_piece(g, "right_p") &&
+           g->pin[0].piece == garment_find_piece(g, "left_p"),
        "pins of the half have an image, pins of shared rings none");
-    OK(g->ncollides == 4 && g->collide[2].to_ring == 2 && g->collide[2].parts == (1u << ROLE_PELVIS | 1u << ROLE_RIGHT_THIGH), "colliders change sides");
+    OK(g->ncollides == 4 && g->collide[2].to_ring == 2 &&
+           g->collide[2].parts == (1u << ROLE_PELVIS | 1u << ROLE_RIGHT_THIGH),
+       "colliders change sides");
     OK(g->nseams == 2 && g->seam[1].piece_a == garment_find_piece(g, "right_p"), "seams have an image");
 }
 
@@ -175,18 +194,23 @@ static void round_trip(const char *name, const Garment *g) {
 }
 
 static void round_trips(void) {
-    static const struct { const char *name, *text; } cases[] = {
+    static const struct {
+        const char *name, *text;
+    } cases[] = {
         {"smallest", "garment g\nring a pelvis 1\nring b pelvis 0\npanel p\nrow a left front\nrow b left front\n"},
         {"odd numbers", "garment g\nring a pelvis 0.1000000000000000055 ease -1e-300 tilt 179.99999999999997\n"
                         "ring b pelvis -0 shift -0 0 1e-7\npanel p\nrow a left front\nrow b left front\n"},
-        {"thirds", "garment g\nring a pelvis 1\nbind a pelvis 1 chest 1 spine 1\nbind a.back head .1 neck .2 chest .3 spine .1\n"
-                   "ring b pelvis 0\npanel p\nrow a left front\nrow b left front\n"},
-        {"every statement", "garment g.v2\nfollow bones\nfit loose\ndetail 5\nring left_a left_thigh .1 size 1 2 3\nmove left_a.front 0 .1 0\n"
-                            "ring left_b left_shin .5\nbind left_b left_shin 1 left_thigh 2\npanel left_p\nrow left_a left front right\n"
-                            "row left_b left front right\npanel left_q\nrow left_a left back right\nrow left_b left back right\n"
-                            "seam left_p.start left_q.start\nseam left_p.end left_q.end crease\npatch left_s\n" FLAT "patch left_t\n" NEXT
-                            "seam left_s.end left_t.start\npin left_a\npin left_s.top\ncollide left_a..left_b left_thigh left_shin\n"
-                            "collide left_t pelvis\nmirror left_ right_\njoin left_a.right right_a.left\n"},
+        {"thirds",
+         "garment g\nring a pelvis 1\nbind a pelvis 1 chest 1 spine 1\nbind a.back head .1 neck .2 chest .3 spine .1\n"
+         "ring b pelvis 0\npanel p\nrow a left front\nrow b left front\n"},
+        {"every statement",
+         "garment g.v2\nfollow bones\nfit loose\ndetail 5\nring left_a left_thigh .1 size 1 2 3\nmove left_a.front 0 "
+         ".1 0\n"
+         "ring left_b left_shin .5\nbind left_b left_shin 1 left_thigh 2\npanel left_p\nrow left_a left front right\n"
+         "row left_b left front right\npanel left_q\nrow left_a left back right\nrow left_b left back right\n"
+         "seam left_p.start left_q.start\nseam left_p.end left_q.end crease\npatch left_s\n" FLAT "patch left_t\n" NEXT
+         "seam left_s.end left_t.start\npin left_a\npin left_s.top\ncollide left_a..left_b left_thigh left_shin\n"
+         "collide left_t pelvis\nmirror left_ right_\njoin left_a.right right_a.left\n"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const Garment *g = parse_good(cases[i].text);
@@ -195,8 +219,13 @@ static void round_trips(void) {
 }
 
 static void shipped(void) {
-    static const struct { const char *path; int patches; } files[] = {
-        {"garments/skirt.garment", 6}, {"garments/paper-skirt.garment", 2}, {"garments/trousers.garment", 24}, {"garments/tshirt.garment", 28}};
+    static const struct {
+        const char *path;
+        int patches;
+    } files[] = {{"garments/skirt.garment", 6},
+                 {"garments/paper-skirt.garment", 2},
+                 {"garments/trousers.garment", 24},
+                 {"garments/tshirt.garment", 28}};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         Arena arena = {0};
         Error e = {0};
@@ -211,9 +240,28 @@ static void shipped(void) {
     }
 }
 
+/* The example of the specification, between its first two fences. */
+static void documented(void) {
+    Arena arena = {0};
+    Error e = {0};
+    Text text;
+    bool read = text_read("garments/README.md", 1 << 20, &arena, &text, &e);
+    const char *from = read ? strstr(text.data, "```\n") : NULL, *to = from ? strstr(from + 4, "```") : NULL;
+    char *example = to ? arena_text(&arena, from + 4, (size_t)(to - from - 4), &e) : NULL;
+    if (OK(example, "garments/README.md begins with an example")) {
+        const Garment *g = parse_good(example);
+        if (OK(g, "the example is a garment")) round_trip("the example", g);
+    }
+    arena_free(&arena);
+}
+
 /* ---- mistakes ---- */
 
-typedef struct { const char *text; int line, column; const char *says; } Mistake;
+typedef struct {
+    const char *text;
+    int line, column;
+    const char *says;
+} Mistake;
 
 static const Mistake mistakes[] = {
     {"", 1, 1, "must begin with 'garment NAME'"},
@@ -303,7 +351,8 @@ static const Mistake mistakes[] = {
     {"garment g\npatch s\n0 0 nan pelvis 1\n", 3, 5, "found 'nan'"},
     {"garment g\npatch s\n" FLAT "1 1 1 pelvis 1\n", 19, 1, "more than 16 points"},
     {"garment g\npatch s\n" POINTS16, 2, 7, "degenerate"},
-    {"garment g\npatch s\n" COLUMN(0, "pelvis") COLUMN(0, "pelvis") COLUMN(0, "pelvis") COLUMN(0, "pelvis"), 2, 7, "degenerate"},
+    {"garment g\npatch s\n" COLUMN(0, "pelvis") COLUMN(0, "pelvis") COLUMN(0, "pelvis") COLUMN(0, "pelvis"), 2, 7,
+     "degenerate"},
     /* seams */
     {TWO "seam p.end\n", 13, 11, "expected 'seam"},
     {TWO "seam p.end r.start\n", 13, 12, "unknown panel or patch 'r'"},
@@ -317,8 +366,9 @@ static const Mistake mistakes[] = {
     {TWO "seam p.end q.start\nseam q.start p.end\n", 14, 6, "has a seam already"},
     {TWO "patch s\n" FLAT "seam p.end s.start\n", 30, 6, "a panel cannot be sewn to a raw patch"},
     {"garment g\npatch s\n" FLAT "patch t\n" FLAT "seam s.end t.start\n", 36, 6, "up to 0.3 m apart"},
-    {"garment g\npatch s\n" FLAT "patch t\n" COLUMN(.3, "chest") COLUMN(.4, "pelvis") COLUMN(.5, "pelvis") COLUMN(.6, "pelvis")
-     "seam s.end t.start\n", 36, 6, "follow different bones"},
+    {"garment g\npatch s\n" FLAT "patch t\n" COLUMN(.3, "chest") COLUMN(.4, "pelvis") COLUMN(.5, "pelvis")
+         COLUMN(.6, "pelvis") "seam s.end t.start\n",
+     36, 6, "follow different bones"},
     /* pins, colliders */
     {RINGS "pin a\n", 5, 5, "no panel above uses the ring 'a'"},
     {PANEL "pin d\n", 9, 5, "unknown ring 'd'"},
@@ -336,12 +386,19 @@ static const Mistake mistakes[] = {
     {PANEL "mirror left_ right_\n", 9, 8, "nothing above has a name that begins with 'left_'"},
     {"garment g\nring l_a pelvis 1\nring r_a pelvis 1\nmirror l_ r_\n", 4, 8, "taken: 'r_a'"},
     {"garment g\nring l_a pelvis 1\nmirror l_a row\n", 3, 8, "reserved word"},
-    {"garment g\nring l_a pelvis 1\nmirror l_ r_234567890123456789012345678901234567890123456\n", 3, 8, "longer than 47 bytes"},
+    {"garment g\nring l_a pelvis 1\nmirror l_ r_234567890123456789012345678901234567890123456\n", 3, 8,
+     "longer than 47 bytes"},
     /* envelopes */
-    {"garment g\nfollow envelope\nring a pelvis 1\nring b left_hand 1\npanel p\nrow a left front\nrow b left front\n", 5, 7, "not the ring 'b' on 'left_hand'"},
-    {"garment g\nfollow envelope\nring a pelvis 1\nring b chest 1\npanel p\nrow a left front\nrow b left front\n", 5, 7, "'b' must lie below 'a'"},
-    {"garment g\nfollow envelope\nring a pelvis 1\nring b pelvis 0\nring c left_shin 0\npanel p\nrow a left front\nrow c left front\n", 6, 7, "does not have all rings"},
-    {"garment g\nfollow envelope\nring a pelvis 1\nring b pelvis 0\npanel p\nrow a left front\nrow b left front\nring c left_shin 0\n", 8, 1, "must stand above its panels"},
+    {"garment g\nfollow envelope\nring a pelvis 1\nring b left_hand 1\npanel p\nrow a left front\nrow b left front\n",
+     5, 7, "not the ring 'b' on 'left_hand'"},
+    {"garment g\nfollow envelope\nring a pelvis 1\nring b chest 1\npanel p\nrow a left front\nrow b left front\n", 5, 7,
+     "'b' must lie below 'a'"},
+    {"garment g\nfollow envelope\nring a pelvis 1\nring b pelvis 0\nring c left_shin 0\npanel p\nrow a left front\nrow "
+     "c left front\n",
+     6, 7, "does not have all rings"},
+    {"garment g\nfollow envelope\nring a pelvis 1\nring b pelvis 0\npanel p\nrow a left front\nrow b left front\nring "
+     "c left_shin 0\n",
+     8, 1, "must stand above its panels"},
     {"garment g\nfollow envelope\npatch s\n", 3, 1, "no rings to follow the envelope"},
 };
 
@@ -350,7 +407,8 @@ static void finds_mistakes(void) {
         const Mistake *m = &mistakes[i];
         Error e;
         bool good = parse(m->text, &first, &e);
-        bool found = !good && e.kind == ERR_INPUT && e.line == m->line && e.column == m->column && strstr(e.text, m->says);
+        bool found =
+            !good && e.kind == ERR_INPUT && e.line == m->line && e.column == m->column && strstr(e.text, m->says);
         if (!OK(found, "%d:%d: %s", m->line, m->column, m->says)) printf("# %d:%d: %s\n", e.line, e.column, e.text);
     }
 }
@@ -367,7 +425,11 @@ static void repeat(char *text, size_t size, const char *line, int n) {
 
 /* As many as the format allows are taken, one more is not. */
 static void has_limits(void) {
-    static const struct { const char *head, *line; int most; const char *says; } limits[] = {
+    static const struct {
+        const char *head, *line;
+        int most;
+        const char *says;
+    } limits[] = {
         {"garment g\n", "ring r@ pelvis 1\n", GARMENT_RINGS_MAX, "more than 64 rings"},
         {RINGS, "panel p@\nrow a left front\nrow b left front\n", GARMENT_PANELS_MAX, "more than 32 panels"},
         {"garment g\n", "patch p@\n" FLAT, GARMENT_PATCHES_MAX, "more than 64 raw patches"},
@@ -388,7 +450,8 @@ static void has_limits(void) {
     strcat(text, "panel p\n");
     repeat(text, sizeof text, "row r@ left front\n", GARMENT_ROWS_MAX + 1);
     Error e;
-    OK(!parse(text, &first, &e) && e.line == 36 && strstr(e.text, "more than 16 rows"), "more than 16 rows, at the 17th");
+    OK(!parse(text, &first, &e) && e.line == 36 && strstr(e.text, "more than 16 rows"),
+       "more than 16 rows, at the 17th");
 }
 
 int main(void) {
@@ -397,6 +460,7 @@ int main(void) {
     mirrors();
     round_trips();
     shipped();
+    documented();
     finds_mistakes();
     has_limits();
     return tap_done();

@@ -58,8 +58,9 @@ typedef struct { int piece_a; Side side_a; int piece_b; Side side_b; bool crease
 /* Two stations that are one point: the mean of both. */
 typedef struct { int ring_a; Station station_a; int ring_b; Station station_b; } Join;
 
-/* Which body parts patches collide with: those between two rings, or a whole piece. */
-typedef struct { int from_ring, to_ring; int piece; unsigned parts; } Collide; /* ring -1: piece; parts: bit 1 << role */
+/* Which body parts patches collide with: those between two rings, or (rings -1) a whole piece.
+   parts: bits 1 << role. */
+typedef struct { int from_ring, to_ring; int piece; unsigned parts; } Collide;
 
 /* Control points that the local deformation may not move. */
 typedef struct { int ring; int piece; Side side; } Pin; /* ring -1: a side of a piece */

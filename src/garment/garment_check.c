@@ -23,14 +23,15 @@ static bool no(Why *why, const char *fmt, ...) {
 }
 
 bool check_name(const char *name, Why *why) {
-    static const char *const taken[] = {"body", "garment", "follow", "fit", "detail", "ring", "bind", "move", "join",
-                                        "panel", "row", "patch", "seam", "pin", "collide", "mirror"};
+    static const char *const taken[] = {"body", "garment", "follow", "fit",   "detail", "ring", "bind",    "move",
+                                        "join", "panel",   "row",    "patch", "seam",   "pin",  "collide", "mirror"};
     for (size_t i = 0; i < sizeof taken / sizeof *taken; i++)
         if (strcmp(name, taken[i]) == 0) return no(why, "'%s' is a reserved word and cannot be a name", name);
     if (name[0] == '.' || name[0] == '-') return no(why, "name '%s' begins with '%c'", name, name[0]);
     for (const char *c = name; *c; c++) {
         if ((unsigned char)*c < 32 || *c == 127) return no(why, "control character in the name '%s'", name);
-        if (strchr("/\\:*?\"<>|,", *c)) return no(why, "'%c' in the name '%s': not every file name can have it", *c, name);
+        if (strchr("/\\:*?\"<>|,", *c))
+            return no(why, "'%c' in the name '%s': not every file name can have it", *c, name);
     }
     return true;
 }
@@ -42,7 +43,8 @@ bool check_row(const Garment *g, const Panel *panel, const Row *row, Why *why) {
     for (int i = 0; i < panel->nrows; i++)
         if (panel->row[i].ring == row->ring)
             return no(why, "panel '%s' has a row on the ring '%s' already", panel->name, g->ring[row->ring].name);
-    if (row->via == STATION_NONE) return neighbours(row->from, row->to) || no(why, "'%s' and '%s' are not neighbours: no quarter arc", from, to);
+    if (row->via == STATION_NONE)
+        return neighbours(row->from, row->to) || no(why, "'%s' and '%s' are not neighbours: no quarter arc", from, to);
     if (row->from != row->to && neighbours(row->from, row->via) && neighbours(row->via, row->to)) return true;
     return no(why, "'%s %s %s' is no half arc: it goes from one station over its neighbour to the opposite one", from,
               station_name(row->via), to);
@@ -65,7 +67,11 @@ bool check_area(const RawPatch *patch, Why *why) {
 
 /* One end of a seam, step by step: a point of a raw patch, a station of a panel's row for start
    and end, or the up to three stations of an arc for top and bottom. */
-typedef struct { int n; int ring[GARMENT_ROWS_MAX]; Station station[GARMENT_ROWS_MAX]; } StationList;
+typedef struct {
+    int n;
+    int ring[GARMENT_ROWS_MAX];
+    Station station[GARMENT_ROWS_MAX];
+} StationList;
 
 /* The two stations of a join count as one: the first of them stands for both. */
 static void add_station(const Garment *g, StationList *list, int ring, Station station) {
@@ -108,8 +114,8 @@ static bool panels_meet(const Garment *g, const Seam *s, Why *why) {
     if (a.n != b.n) return no(why, "the seam does not meet: the sides have %d and %d stations", a.n, b.n);
     int i = panels_part(&a, &b, false);
     if (i < 0 || panels_part(&a, &b, true) < 0) return true;
-    return no(why, "the seam does not meet: '%s.%s' against '%s.%s'", g->ring[a.ring[i]].name, station_name(a.station[i]),
-              g->ring[b.ring[i]].name, station_name(b.station[i]));
+    return no(why, "the seam does not meet: '%s.%s' against '%s.%s'", g->ring[a.ring[i]].name,
+              station_name(a.station[i]), g->ring[b.ring[i]].name, station_name(b.station[i]));
 }
 
 /* Which control point of a raw patch stands at place i of a side. */
@@ -156,13 +162,19 @@ bool check_seam(const Garment *g, const Seam *s, Why *why) {
     if (s->piece_a == s->piece_b && s->side_a == s->side_b) return no(why, "a side cannot be sewn to itself");
     for (int i = 0; i < g->nseams; i++) {
         const Seam *t = &g->seam[i];
-        const struct { int piece; Side side; } old[2] = {{t->piece_a, t->side_a}, {t->piece_b, t->side_b}};
+        const struct {
+            int piece;
+            Side side;
+        } old[2] = {{t->piece_a, t->side_a}, {t->piece_b, t->side_b}};
         for (int k = 0; k < 2; k++)
-            if ((old[k].piece == s->piece_a && old[k].side == s->side_a) || (old[k].piece == s->piece_b && old[k].side == s->side_b))
-                return no(why, "'%s.%s' has a seam already", garment_piece_name(g, old[k].piece), side_name(old[k].side));
+            if ((old[k].piece == s->piece_a && old[k].side == s->side_a) ||
+                (old[k].piece == s->piece_b && old[k].side == s->side_b))
+                return no(why, "'%s.%s' has a seam already", garment_piece_name(g, old[k].piece),
+                          side_name(old[k].side));
     }
     bool raw_a = s->piece_a >= g->npanels, raw_b = s->piece_b >= g->npanels;
-    if (raw_a != raw_b) return no(why, "a panel cannot be sewn to a raw patch: only the body decides where the panel lies");
+    if (raw_a != raw_b)
+        return no(why, "a panel cannot be sewn to a raw patch: only the body decides where the panel lies");
     return raw_a ? patches_meet(g, s, why) : panels_meet(g, s, why);
 }
 
@@ -172,7 +184,8 @@ bool check_join(const Garment *g, const Join *join, Why *why) {
         const Join *old = &g->join[i / 2];
         int ring = i % 2 ? old->ring_b : old->ring_a;
         Station station = i % 2 ? old->station_b : old->station_a;
-        if ((ring == join->ring_a && station == join->station_a) || (ring == join->ring_b && station == join->station_b))
+        if ((ring == join->ring_a && station == join->station_a) ||
+            (ring == join->ring_b && station == join->station_b))
             return no(why, "'%s.%s' is joined already", g->ring[ring].name, station_name(station));
     }
     return true;
@@ -190,7 +203,8 @@ bool check_collide(const Garment *g, const Collide *c, Why *why) {
         int from = find_row(&g->panel[i], c->from_ring), to = find_row(&g->panel[i], c->to_ring);
         if (from >= 0 && to >= 0 && from != to) return true;
     }
-    return no(why, "no panel above has patches from the ring '%s' to '%s'", g->ring[c->from_ring].name, g->ring[c->to_ring].name);
+    return no(why, "no panel above has patches from the ring '%s' to '%s'", g->ring[c->from_ring].name,
+              g->ring[c->to_ring].name);
 }
 
 bool check_pin(const Garment *g, const Pin *pin, Why *why) {
@@ -215,14 +229,16 @@ bool check_envelope(const Garment *g, const Panel *panel, Why *why) {
     bool all = panel->nrows == g->nrings;
     for (int i = 0; i < panel->nrows; i++) all = all && panel->row[i].ring == i;
     if (!all)
-        return no(why, "panel '%s' does not have all rings in their order, '%s' to '%s': they are one envelope", panel->name,
-                  g->ring[0].name, g->ring[g->nrings - 1].name);
+        return no(why, "panel '%s' does not have all rings in their order, '%s' to '%s': they are one envelope",
+                  panel->name, g->ring[0].name, g->ring[g->nrings - 1].name);
     for (int i = 0; i < panel->nrows; i++) {
         const Ring *ring = &g->ring[panel->row[i].ring];
         if (!torso_or_leg(ring->part))
-            return no(why, "the envelope holds torso and legs, not the ring '%s' on '%s'", ring->name, role_name(ring->part));
+            return no(why, "the envelope holds torso and legs, not the ring '%s' on '%s'", ring->name,
+                      role_name(ring->part));
         if (i > 0 && height_of(&figure, ring) >= height_of(&figure, &g->ring[panel->row[i - 1].ring]))
-            return no(why, "ring '%s' must lie below '%s' in an envelope", ring->name, g->ring[panel->row[i - 1].ring].name);
+            return no(why, "ring '%s' must lie below '%s' in an envelope", ring->name,
+                      g->ring[panel->row[i - 1].ring].name);
     }
     return true;
 }

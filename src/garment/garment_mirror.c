@@ -54,7 +54,8 @@ static bool has_prefix(const Mirror *m, const char *name) { return strncmp(name,
 /* The mirrored name, checked to be new. */
 static bool other_name(Mirror *m, const char *name, char out[GARMENT_NAME_MAX]) {
     int n = snprintf(out, GARMENT_NAME_MAX, "%s%s", m->to, name + strlen(m->from));
-    if (n >= GARMENT_NAME_MAX) return no(m, "the mirrored name of '%s' is longer than %d bytes", name, GARMENT_NAME_MAX - 1);
+    if (n >= GARMENT_NAME_MAX)
+        return no(m, "the mirrored name of '%s' is longer than %d bytes", name, GARMENT_NAME_MAX - 1);
     if (garment_find_ring(m->g, out) >= 0 || garment_find_piece(m->g, out) >= 0)
         return no(m, "the mirror image of '%s' has a name that is taken: '%s'", name, out);
     return check_name(out, m->why);
@@ -62,7 +63,8 @@ static bool other_name(Mirror *m, const char *name, char out[GARMENT_NAME_MAX]) 
 
 static Role other_role(Role role) {
     if (role >= ROLE_LEFT_CLAVICLE && role <= ROLE_LEFT_HAND) return role + (ROLE_RIGHT_CLAVICLE - ROLE_LEFT_CLAVICLE);
-    if (role >= ROLE_RIGHT_CLAVICLE && role <= ROLE_RIGHT_HAND) return role - (ROLE_RIGHT_CLAVICLE - ROLE_LEFT_CLAVICLE);
+    if (role >= ROLE_RIGHT_CLAVICLE && role <= ROLE_RIGHT_HAND)
+        return role - (ROLE_RIGHT_CLAVICLE - ROLE_LEFT_CLAVICLE);
     if (role >= ROLE_LEFT_THIGH && role <= ROLE_LEFT_TOE) return role + (ROLE_RIGHT_THIGH - ROLE_LEFT_THIGH);
     if (role >= ROLE_RIGHT_THIGH && role <= ROLE_RIGHT_TOE) return role - (ROLE_RIGHT_THIGH - ROLE_LEFT_THIGH);
     return role;
@@ -122,7 +124,8 @@ static bool mirror_panels(Mirror *m) {
         if (!other_name(m, m->g->panel[i].name, image.name)) return false;
         for (int k = 0; k < image.nrows; k++) {
             Row *row = &image.row[k];
-            *row = (Row){other_ring(m, row->ring), other_station(row->from), other_station(row->via), other_station(row->to)};
+            *row = (Row){other_ring(m, row->ring), other_station(row->from), other_station(row->via),
+                         other_station(row->to)};
         }
         Panel *panel = garment_add_panel(m->g, image.name);
         if (!panel) return no(m, "more than %d panels", GARMENT_PANELS_MAX);
@@ -186,7 +189,8 @@ static bool mirror_collides_and_pins(Mirror *m) {
     Garment *g = m->g;
     for (int i = 0, n = g->ncollides; i < n; i++) {
         const Collide *old = &g->collide[i];
-        Collide c = {other_ring(m, old->from_ring), other_ring(m, old->to_ring), other_piece(m, old->piece), other_parts(old->parts)};
+        Collide c = {other_ring(m, old->from_ring), other_ring(m, old->to_ring), other_piece(m, old->piece),
+                     other_parts(old->parts)};
         if (c.from_ring == old->from_ring && c.to_ring == old->to_ring && c.piece == old->piece) continue;
         if (g->ncollides == GARMENT_COLLIDES_MAX) return no(m, "more than %d collides", GARMENT_COLLIDES_MAX);
         g->collide[g->ncollides++] = c;
