@@ -15,8 +15,12 @@ typedef struct {
     ErrorKind (*run)(const Settings *settings, Error *e);
 } Command;
 
-/* Reads the words behind the command. Stops where --help or --version is asked for: then
-   out->help or out->version is set and nothing else matters. Texts point into argv. ERR_USAGE. */
+/* Reads the words behind the command, and before them the job file that they name; they win.
+   Stops where --help or --version is asked for: then out->help or out->version is set and
+   nothing else matters. Texts point into argv. ERR_USAGE. */
 MUST_CHECK bool options_parse(const Command *command, int argc, char **argv, Arena *arena, Settings *out, Error *e);
+
+/* The option of that name; *no: it was called no-NAME, a switch that is taken back. As settings_find. */
+const Option *options_find(const char *name, unsigned commands, bool *no);
 
 #endif

@@ -21,7 +21,8 @@ typedef enum { PROGRESS_AUTO, PROGRESS_ALWAYS, PROGRESS_NEVER } ProgressMode;
 /* Filled by options_parse, const for everybody else. Zero is the default everywhere, but for
    `gait`, which gait_defaults fills. */
 typedef struct {
-    TextList inputs;            /* what stands on the command line without a dash */
+    TextList inputs;            /* what stands on the command line without a dash, or --motion */
+    const char *files_from;     /* a list of more of them */
     const char *output;         /* folder (dress) or file (walk) */
 
     TextList garments;
@@ -51,7 +52,8 @@ typedef struct {
 
     bool joints;                /* inspect */
     Gait gait;                  /* walk */
-    bool help, version;
+    const char *job;            /* file with more of these */
+    bool print_job, help, version;
 } Settings;
 
 typedef enum {
@@ -74,13 +76,14 @@ typedef struct {
     char letter;           /* short form, or 0 */
     OptionKind kind;
     size_t field;          /* offset in Settings */
-    const char *argument;  /* what the help calls the value; NULL for flags */
+    const char *argument;  /* what the help calls the value; FILE and DIR are paths; NULL for flags */
     const char *group;     /* heading in the help */
     unsigned commands;     /* CommandBit set */
     const char *help;
     const char *fallback;  /* the default, in words; NULL: nothing to say */
     double low, high;      /* range of a number, both included */
     int step;              /* KIND_INT: multiples of this; 0 = 1 */
+    bool manner;           /* how it is done, not what: the files that are written stay the same */
     int bias;              /* KIND_INT: added before it is stored, so that 0 can mean default */
     const Choice *choices; /* ends with a NULL name */
 } Option;
@@ -101,6 +104,19 @@ const Option *settings_nearest(const char *name, unsigned commands);
 /* Puts a value, as text, where it belongs. `text` must outlive the settings. ERR_USAGE that
    names the option, says what was expected and quotes what was found. */
 MUST_CHECK bool settings_put(Settings *s, const Option *option, const char *text, Arena *arena, Error *e);
+
+/* The value as a text that settings_put takes; of a list its item `i`. False where it is the default
+   (or the list has no such item): then nothing is written. */
+bool settings_show(const Settings *s, const Option *option, int i, FILE *out);
+
+/* All defaults. */
+void settings_clear(Settings *s);
+
+/* Is the value the name of a file or folder? */
+bool settings_is_path(const Option *option);
+
+/* "cm" for 0.01; NULL where a unit has no name. */
+const char *settings_unit(double metres);
 
 /* Adds a text to a list, which must outlive it. */
 MUST_CHECK bool settings_append(TextList *list, const char *text, Arena *arena, Error *e);

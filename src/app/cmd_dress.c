@@ -1,16 +1,31 @@
 /* kitsuke dress: what the whole run shares is read and checked before the first motion, so that a
    mistake in a garment is one message and not ten thousand. */
+#include <string.h>
+
 #include "app/batch.h"
 #include "app/commands.h"
+#include "app/listfile.h"
 #include "app/stop.h"
 
 static bool check_needed(const Settings *s, Error *e) {
-    if (s->inputs.count == 0) return error_set(e, ERR_USAGE, "nothing to dress: name a motion or a folder of motions");
+    if (s->inputs.count == 0 && !s->files_from)
+        return error_set(e, ERR_USAGE, "nothing to dress: name a motion or a folder of motions");
     if (s->garments.count == 0) return error_set(e, ERR_USAGE, "nothing to put on: name a garment with -g FILE");
-    if (s->method == METHOD_PAPER && s->fixed)
-        return error_set(e, ERR_USAGE, "'--method paper' has no fixed topology: its patches share nothing");
     if (!s->output) return error_set(e, ERR_USAGE, "no place to write to: name a folder with -o DIR");
     return true;
+}
+
+/* Motions of the command line first, then those of the list. */
+static bool collect(const Settings *s, Arena *arena, Input **input, int *count, Error *e) {
+    TextList all = {0};
+    for (int i = 0; i < s->inputs.count; i++)
+        if (!settings_append(&all, s->inputs.item[i], arena, e)) return false;
+    if (s->files_from && !listfile_read(s->files_from, arena, &all, e)) return false;
+    for (int i = 0; s->files_from && strcmp(s->files_from, "-") == 0 && i < all.count; i++)
+        if (strcmp(all.item[i], "-") == 0)
+            return error_set(e, ERR_USAGE, "standard input cannot be both a motion and the list of motions");
+    if (all.count == 0) return error_set(e, ERR_INPUT, "the list '%s' names no motion", s->files_from);
+    return inputs_collect(&all, arena, input, count, e);
 }
 
 ErrorKind cmd_dress(const Settings *s, Error *e) {
@@ -20,8 +35,7 @@ ErrorKind cmd_dress(const Settings *s, Error *e) {
     ErrorKind code = ERR_USAGE;
     Wardrobe w;
     stop_listen();
-    bool good = check_needed(s, e) && wardrobe_read(s, &arena, &w, e) &&
-                inputs_collect(&s->inputs, &arena, &input, &count, e);
+    bool good = check_needed(s, e) && wardrobe_read(s, &arena, &w, e) && collect(s, &arena, &input, &count, e);
     code = good ? batch_run(&w, input, count, &arena, e) : e->kind;
     arena_free(&arena);
     return code;

@@ -7,6 +7,7 @@
 #include "app/inputs.h"
 
 #include <dirent.h>
+#include <glob.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -105,15 +106,41 @@ static char *tidy(const char *path, Arena *arena, Error *e) {
     return out && !*out ? arena_text(arena, ".", 1, e) : out;
 }
 
+static bool add_file(Search *s, const char *path) {
+    const char *slash = strrchr(path, '/');
+    return add(s, path, slash ? slash + 1 : path, false);
+}
+
+static bool has_pattern(const char *path) { return strpbrk(path, "*?[") != NULL; }
+
+static bool add_operand(Search *s, const char *operand);
+
+/* A pattern that no shell has replaced, because it was quoted or stands in a job file. What it
+   matches exists, so this goes no deeper. */
+static bool add_matches(Search *s, const char *pattern) {
+    glob_t found;
+    bool good = true;
+    int code = glob(pattern, 0, NULL, &found);
+    if (code == GLOB_NOMATCH) return add_file(s, pattern);
+    if (code != 0) return error_set(s->e, ERR_INTERNAL, "out of memory for the files '%s'", pattern);
+    for (size_t i = 0; good && i < found.gl_pathc; i++) {
+        const char *path = arena_text(s->arena, found.gl_pathv[i], strlen(found.gl_pathv[i]), s->e);
+        struct stat info;
+        if (path && stat(path, &info) != 0) good = add_file(s, path); /* it has just gone */
+        else good = path && add_operand(s, path);
+    }
+    globfree(&found);
+    return good;
+}
+
 static bool add_operand(Search *s, const char *operand) {
     struct stat info;
     if (strcmp(operand, "-") == 0) return add(s, operand, "stdin", false);
     char *path = tidy(operand, s->arena, s->e);
     if (!path) return false;
-    if (stat(path, &info) != 0 || !S_ISDIR(info.st_mode)) {
-        const char *slash = strrchr(path, '/');
-        return add(s, path, slash ? slash + 1 : path, false);
-    }
+    bool is_there = stat(path, &info) == 0;
+    if (!is_there && has_pattern(path)) return add_matches(s, path);
+    if (!is_there || !S_ISDIR(info.st_mode)) return add_file(s, path);
     int before = s->count;
     size_t n = strlen(path);
     if (!search_folder(s, path, path[n - 1] == '/' ? n : n + 1, 0)) return false;

@@ -5,6 +5,7 @@
 
 #include "app/commands.h"
 #include "app/help.h"
+#include "app/jobfile.h"
 
 static const Command commands[] = {
     {.name = "dress", .bit = COMMAND_DRESS, .run = cmd_dress,
@@ -63,7 +64,9 @@ static ErrorKind run_command(const Command *command, int argc, char **argv, Erro
     if (options_parse(command, argc, argv, &arena, &settings, e)) {
         if (settings.help) help_command(command, stdout);
         else if (settings.version) print_version();
-        code = settings.help || settings.version ? ERR_NONE : command->run(&settings, e);
+        if (settings.help || settings.version) code = ERR_NONE;
+        else if (settings.print_job) code = jobfile_print(command, &settings, stdout, e) ? ERR_NONE : e->kind;
+        else code = command->run(&settings, e);
     }
     arena_free(&arena);
     return e->kind > code ? e->kind : code;

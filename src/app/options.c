@@ -2,10 +2,13 @@
 
    GNU manners: options and operands in any order, `--` ends the options, `--name=value` and
    `--name value`, `-o DIR` and `-oDIR`, switches in clusters (`-qf`), the last one wins. A
-   lone `-` is an operand. What is wrong is named, and the nearest right thing suggested. */
+   lone `-` is an operand. What is wrong is named, and the nearest right thing suggested. With
+   --job the words are read twice: once to find the file, and once more on top of what it says. */
 #include "app/options.h"
 
 #include <string.h>
+
+#include "app/jobfile.h"
 
 typedef struct {
     const Command *command;
@@ -19,6 +22,19 @@ typedef struct {
 /* Pairs that contradict each other. */
 static const char *const conflicts[][2] = {{"quiet", "verbose"}};
 
+static const Option *find_named(const char *name, unsigned commands) {
+    return settings_find(name, strlen(name), commands);
+}
+
+const Option *options_find(const char *name, unsigned commands, bool *no) {
+    const Option *option = find_named(name, commands);
+    *no = false;
+    if (option || strncmp(name, "no-", 3) != 0) return option;
+    option = find_named(name + 3, commands);
+    *no = true;
+    return option && option->kind == KIND_FLAG ? option : NULL;
+}
+
 static bool unknown_option(const Parser *p, const char *word, const char *name, Error *e) {
     const Option *near = settings_nearest(name, p->command->bit);
     if (near) return error_set(e, ERR_USAGE, "unknown option '%s'; did you mean '--%s'?", word, near->name);
@@ -29,8 +45,17 @@ static bool foreign_option(const Parser *p, const Option *option, Error *e) {
     return error_set(e, ERR_USAGE, "'%s' has no option '--%s'", p->command->name, option->name);
 }
 
+/* Contradictions are judged within the command line; a job file gives way to it, lists as a whole. */
 static bool put(Parser *p, const Option *option, const char *value, Error *e) {
-    p->given[option - settings_table] = true;
+    bool *given = &p->given[option - settings_table];
+    if (option->kind == KIND_LIST && !*given) *(TextList *)((char *)p->settings + option->field) = (TextList){0};
+    for (size_t i = 0; i < sizeof conflicts / sizeof conflicts[0]; i++)
+        for (int side = 0; side < 2; side++) {
+            if (strcmp(conflicts[i][side], option->name) != 0) continue;
+            const Option *other = find_named(conflicts[i][!side], p->command->bit);
+            if (!p->given[other - settings_table]) *(bool *)((char *)p->settings + other->field) = false;
+        }
+    *given = true;
     return settings_put(p->settings, option, value, p->arena, e);
 }
 
@@ -43,22 +68,16 @@ static const char *next_value(Parser *p, const Option *option, Error *e) {
 
 /* --name, --name=value, --name value, --no-name */
 static bool parse_long(Parser *p, const char *word, Error *e) {
-    const char *name = word + 2;
-    size_t length = strcspn(name, "=");
-    const char *value = name[length] ? name + length + 1 : NULL;
-    const Option *option = settings_find(name, length, p->command->bit);
-    if (!option && !value && strncmp(name, "no-", 3) == 0) {
-        option = settings_find(name + 3, length - 3, p->command->bit);
-        if (option && option->kind != KIND_FLAG) option = NULL;
-        value = "no";
-    }
-    if (!option) {
-        char copy[64];
-        snprintf(copy, sizeof copy, "%.*s", (int)(length < 63 ? length : 63), name);
-        return unknown_option(p, word, copy, e);
-    }
+    char name[64];
+    bool no = false;
+    size_t length = strcspn(word + 2, "=");
+    const char *value = word[2 + length] ? word + 2 + length + 1 : NULL;
+    snprintf(name, sizeof name, "%.*s", (int)(length < 63 ? length : 63), word + 2);
+    const Option *option = options_find(name, p->command->bit, &no);
+    if (!option || length >= sizeof name || (no && value)) return unknown_option(p, word, name, e);
     if (!(option->commands & p->command->bit)) return foreign_option(p, option, e);
-    if (!value) value = option->kind == KIND_FLAG ? "yes" : next_value(p, option, e);
+    if (option->kind == KIND_FLAG && !value) value = no ? "no" : "yes";
+    if (!value) value = next_value(p, option, e);
     return value && put(p, option, value, e);
 }
 
@@ -90,20 +109,33 @@ static bool check_conflicts(const Parser *p, Error *e) {
     return true;
 }
 
-bool options_parse(const Command *command, int argc, char **argv, Arena *arena, Settings *out, Error *e) {
+static bool put_operand(Parser *p, const char *word, Error *e) {
+    static const char motion[] = "motion"; /* the option that operands are short for */
+    return put(p, settings_find(motion, sizeof motion - 1, COMMAND_ALL), word, e);
+}
+
+/* All words, on top of what the settings hold already. */
+static bool parse_words(const Command *command, int argc, char **argv, Arena *arena, Settings *out, Error *e) {
     Parser p = {.command = command, .argc = argc, .argv = argv, .arena = arena, .settings = out};
     bool operands_only = false;
-    memset(out, 0, sizeof *out);
-    gait_defaults(&out->gait);
     while (p.next < argc) {
         const char *word = argv[p.next++];
         bool good = true;
         if (!operands_only && strcmp(word, "--") == 0) operands_only = true;
         else if (!operands_only && strncmp(word, "--", 2) == 0) good = parse_long(&p, word, e);
         else if (!operands_only && word[0] == '-' && word[1]) good = parse_letters(&p, word, e);
-        else good = settings_append(&out->inputs, word, arena, e);
+        else good = put_operand(&p, word, e);
         if (!good) return false;
         if (out->help || out->version) return true;
     }
     return check_conflicts(&p, e);
+}
+
+bool options_parse(const Command *command, int argc, char **argv, Arena *arena, Settings *out, Error *e) {
+    settings_clear(out);
+    if (!parse_words(command, argc, argv, arena, out, e)) return false;
+    const char *job = out->job;
+    if (!job || out->help || out->version) return true;
+    settings_clear(out);
+    return jobfile_read(job, command, arena, out, e) && parse_words(command, argc, argv, arena, out, e);
 }

@@ -32,6 +32,10 @@ enum { UNITS = sizeof units / sizeof units[0] };
 #define MOVES (COMMAND_DRESS | COMMAND_INSPECT) /* both open motions */
 
 const Option settings_table[] = {
+    {"motion", 0, KIND_LIST, FIELD(inputs), "FILE", "Motion", MOVES,
+     "motion or folder of motions; on a command line the name alone will do"},
+    {"files-from", 0, KIND_TEXT, FIELD(files_from), "FILE", "Motion", COMMAND_DRESS,
+     "list of more motions, one in a line, or separated by NUL; -: standard input"},
     {"asf", 0, KIND_TEXT, FIELD(asf), "FILE", "Motion", MOVES,
      "skeleton of AMC motions", .fallback = "the .asf file beside the motion"},
     {"roles", 0, KIND_TEXT, FIELD(roles), "FILE", "Motion", MOVES,
@@ -85,7 +89,7 @@ const Option settings_table[] = {
     {"no-times", 0, KIND_FLAG, FIELD(no_times), NULL, "Output", COMMAND_DRESS,
      "leave the columns of seconds out of the statistics"},
     {"force", 'f', KIND_FLAG, FIELD(force), NULL, "Output", COMMAND_DRESS,
-     "replace motion folders that are there already"},
+     "replace motion folders that are there already", .manner = true},
     {"draco-position-bits", 0, KIND_INT, FIELD(drc.position_bits), "N", "Output", COMMAND_DRESS,
      "quantisation of positions", .fallback = "14", RANGE(1, 30)},
     {"draco-normal-bits", 0, KIND_INT, FIELD(drc.normal_bits), "N", "Output", COMMAND_DRESS,
@@ -124,19 +128,24 @@ const Option settings_table[] = {
      "BVH file to write", .fallback = "standard output"},
 
     {"jobs", 'j', KIND_INT, FIELD(jobs), "N", "Run", COMMAND_DRESS,
-     "motions that are dressed at the same time", .fallback = "one for each processor", RANGE(1, 256)},
+     "motions that are dressed at the same time", .fallback = "one for each processor", RANGE(1, 256), .manner = true},
     {"strict", 0, KIND_FLAG, FIELD(strict), NULL, "Run", COMMAND_DRESS,
-     "exit with 1 if the body shows through a garment anywhere"},
+     "exit with 1 if the body shows through a garment anywhere", .manner = true},
+    {"job", 0, KIND_TEXT, FIELD(job), "FILE", "Run", COMMAND_ALL,
+     "read options from lines 'name value'; what the command line says wins", .manner = true},
+    {"print-job", 0, KIND_FLAG, FIELD(print_job), NULL, "Run", COMMAND_ALL,
+     "print the job file that these words amount to, and do nothing", .manner = true},
     {"quiet", 'q', KIND_FLAG, FIELD(quiet), NULL, "Messages", COMMAND_DRESS,
-     "errors only"},
+     "errors only", .manner = true},
     {"verbose", 'v', KIND_FLAG, FIELD(verbose), NULL, "Messages", COMMAND_DRESS,
-     "more about each motion, and where the time went"},
+     "more about each motion, and where the time went", .manner = true},
     {"progress", 0, KIND_CHOICE, FIELD(progress), "WHEN", "Messages", COMMAND_DRESS,
-     "a line that tells how far it is; auto: on a terminal", .fallback = "auto", .choices = progress_modes},
+     "a line that tells how far it is; auto: on a terminal", .fallback = "auto", .choices = progress_modes,
+     .manner = true},
     {"help", 'h', KIND_FLAG, FIELD(help), NULL, "Messages", COMMAND_ALL,
-     "print this page"},
+     "print this page", .manner = true},
     {"version", 'V', KIND_FLAG, FIELD(version), NULL, "Messages", COMMAND_ALL,
-     "print the version"},
+     "print the version", .manner = true},
     {0}};
 
 const Option *settings_find(const char *name, size_t length, unsigned commands) {
@@ -172,6 +181,21 @@ const Option *settings_nearest(const char *name, unsigned commands) {
         }
     }
     return best;
+}
+
+void settings_clear(Settings *s) {
+    memset(s, 0, sizeof *s);
+    gait_defaults(&s->gait);
+}
+
+bool settings_is_path(const Option *option) {
+    return option->argument && (strcmp(option->argument, "FILE") == 0 || strcmp(option->argument, "DIR") == 0);
+}
+
+const char *settings_unit(double metres) {
+    for (int i = 0; i < UNITS; i++)
+        if (units[i].metres == metres) return units[i].name;
+    return NULL;
 }
 
 const char *settings_choices(const Choice *choices, char *out, size_t n) {
