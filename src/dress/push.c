@@ -27,7 +27,7 @@ static const double OFFSET_MAX = 0.03;  /* of a single vertex: more would be a s
 
 bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     *p = (Push){.lattice = lattice, .scale = lattice->fit->height / 1.70, .pelvis = mat_identity()};
-    p->cap = lattice->fit->height / (lattice->fit->garment->loose ? 7 : 20);
+    p->cap = lattice->fit->height / (lattice->fit->garment->loose ? 7 : 9);
     for (int l = 0; l <= lattice->depth; l++) p->start[l + 1] = p->start[l] + lattice->level[l].count;
     for (int l = lattice->depth + 1; l < LATTICE_LEVELS; l++) p->start[l + 1] = p->start[l];
     int unknowns = p->start[LATTICE_LEVELS], places = lattice->nplaces;
