@@ -25,6 +25,7 @@ typedef struct {
     Vec3 *displacement;               /* per level vertex; world frame, metres */
     bool *active;
     Vec3 *offset;                     /* per lattice place: the last millimetres */
+    Vec3 *kept_displacement, *kept_offset, *kept_point; /* of the attempt before, see push_afresh */
     Mat3 pelvis;                      /* of the frame that the displacement belongs to */
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
     double *clearance;                /* per mesh vertex: distance asked for */
@@ -64,6 +65,12 @@ void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult 
 /* The displaced patch over cell (a, b) of a level, a leaf or finer: the part of the root patch and
    the field over it, which is bicubic there. Offsets are left out. */
 Patch push_leaf(const Push *p, const Patch *root, LatticeCell cell, int level);
+
+/* A carried displacement can hold a tangle that no sweep undoes. push_afresh keeps this attempt
+   and forgets the displacement, so that push_start and push_solve make another from the global
+   shape alone; push_back takes the kept attempt again. */
+void push_afresh(Push *p);
+void push_back(Push *p);
 
 /* Fills what the solution amounts to: active, pinched, displacement. */
 void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);

@@ -12,7 +12,8 @@ typedef struct {
     const unsigned *own;  /* per vertex: parts (bits 1 << role) that must not show there */
     Crossing *found;
     int capacity;
-    int *bad, nbad;       /* vertices of the pairs that must not be, in the order found */
+    int *bad, nbad;       /* vertices that must not be where they are, in the order found */
+    bool inside_known;    /* tester_inside has counted since the mesh was built */
 } Tester;
 
 typedef struct {
@@ -33,7 +34,8 @@ void tester_build(Tester *t, const Vec3 *position, const Edge *edge, int nedges,
    show, *other elsewhere. Appends the garment vertices of the former to t->bad. */
 void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other, CrossingCount *count);
 
-/* Counts the vertices inside any part. */
-void tester_inside(const Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own, Residual *other);
+/* Counts the vertices inside any part, and appends those that must not be to t->bad. Once for
+   each mesh: a second call adds nothing. */
+void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own, Residual *other);
 
 #endif

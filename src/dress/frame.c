@@ -97,31 +97,49 @@ static void snap_points(Dresser *d, double unit) {
     tester_build(&d->tester, d->position, d->sheet.edge, d->sheet.nedges, d->sheet.triangle, d->sheet.ntriangles, d->own);
 }
 
-/* Tests the mesh and asks for more distance round everything that still crosses a collider of
-   its own, until nothing does or a cap. Crossings of the last round go to *own and *other. */
-static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Residual *own, Residual *other, CrossingCount *count) {
-    PushResult result = {0};
+/* Tests the mesh as it would be written: what crosses the garment's colliders, and, where nothing
+   does, what lies inside them. Vertices that must not be are in d->tester.bad. */
+static void test_mesh(Dresser *d, const BodyFrame *body, Residual *own, Residual *other, CrossingCount *count) {
+    *own = *other = (Residual){0};
+    snap_points(d, body->unit);
+    tester_cross(&d->tester, body, d->fit.collide, own, other, count);
+    if (!d->tester.nbad) tester_inside(&d->tester, body, d->position, d->sheet.nvertices, own, other);
+}
+
+/* One attempt: pushes, tests the mesh, asks for more distance round everything that still crosses
+   a collider of its own, until nothing does or a cap. Returns how many vertices are left that
+   must not be where they are. */
+static int attempt(Dresser *d, const BodyFrame *body, FrameStats *stats, PushResult *result, Residual *own, Residual *other,
+                   CrossingCount *count) {
     double start = clock_seconds();
     push_start(&d->push, d->root, &d->leaves, &d->sheet);
-    push_solve(&d->push, body, &d->sheet, &result);
-    stats->push_s += clock_seconds() - start;
+    push_solve(&d->push, body, &d->sheet, result);
     for (int round = 0;; round++) {
-        start = clock_seconds();
-        *own = *other = (Residual){0};
-        snap_points(d, body->unit);
-        tester_cross(&d->tester, body, d->fit.collide, own, other, count);
+        double pushed = clock_seconds();
+        stats->push_s += pushed - start;
+        test_mesh(d, body, own, other, count);
         bool raised = false;
         for (int k = 0; k < d->tester.nbad; k++) raised |= push_raise(&d->push, d->tester.bad[k], RAISE);
-        double tested = clock_seconds();
-        stats->test_s += tested - start;
-        if (!d->tester.nbad) break;
-        if (!raised || round == ROUNDS_MAX) {
-            stats->capped = true;
-            break;
+        start = clock_seconds();
+        stats->test_s += start - pushed;
+        if (!raised || round == ROUNDS_MAX) return d->tester.nbad;
+        if (round % SOLVE_EVERY == SOLVE_EVERY - 1) push_solve(&d->push, body, &d->sheet, result);
+        else push_settle(&d->push, body, &d->sheet, result);
+    }
+}
+
+/* A second attempt, from the global shape alone, where the first leaves something; the better
+   one stays. */
+static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Residual *own, Residual *other, CrossingCount *count) {
+    PushResult result = {0};
+    int left = attempt(d, body, stats, &result, own, other, count);
+    if (left) {
+        push_afresh(&d->push);
+        if (attempt(d, body, stats, &result, own, other, count) >= left) {
+            push_back(&d->push);
+            test_mesh(d, body, own, other, count);
         }
-        if (round % SOLVE_EVERY == SOLVE_EVERY - 1) push_solve(&d->push, body, &d->sheet, &result);
-        else push_settle(&d->push, body, &d->sheet, &result);
-        stats->push_s += clock_seconds() - tested;
+        stats->capped = true;
     }
     push_measure(&d->push, body, &d->sheet, &result);
     stats->sweeps = result.sweeps;

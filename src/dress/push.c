@@ -34,12 +34,16 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     p->displacement = ARENA_NEW(arena, Vec3, unknowns, e);
     p->active = ARENA_NEW(arena, bool, unknowns, e);
     p->offset = ARENA_NEW(arena, Vec3, places, e);
+    p->kept_displacement = ARENA_NEW(arena, Vec3, unknowns, e);
+    p->kept_offset = ARENA_NEW(arena, Vec3, places, e);
+    p->kept_point = ARENA_NEW(arena, Vec3, places, e);
     p->global = ARENA_NEW(arena, Vec3, places, e);
     p->point = ARENA_NEW(arena, Vec3, places, e);
     p->clearance = ARENA_NEW(arena, double, places, e);
     p->sample = ARENA_NEW(arena, PushSample, places, e);
     p->raised = ARENA_NEW(arena, int, places, e);
-    return p->displacement && p->active && p->offset && p->global && p->point && p->clearance && p->sample && p->raised;
+    return p->displacement && p->active && p->offset && p->kept_displacement && p->kept_offset && p->kept_point &&
+           p->global && p->point && p->clearance && p->sample && p->raised;
 }
 
 static bool is_zero(Vec3 v) { return v.x == 0 && v.y == 0 && v.z == 0; }
@@ -312,6 +316,24 @@ void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult 
         int v = p->raised[k];
         settle_vertex(p, body, sheet, v, parts_near(p, body, sheet->place[v], p->point[v], p->clearance[v]), &result->capped);
     }
+}
+
+static void swap(Vec3 **a, Vec3 **b) {
+    Vec3 *t = *a;
+    *a = *b;
+    *b = t;
+}
+
+void push_back(Push *p) {
+    swap(&p->displacement, &p->kept_displacement);
+    swap(&p->offset, &p->kept_offset);
+    swap(&p->point, &p->kept_point);
+}
+
+void push_afresh(Push *p) {
+    push_back(p);
+    memset(p->displacement, 0, (size_t)p->start[LATTICE_LEVELS] * sizeof *p->displacement);
+    memset(p->offset, 0, (size_t)p->lattice->nplaces * sizeof *p->offset);
 }
 
 void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {

@@ -17,6 +17,7 @@ void tester_build(Tester *t, const Vec3 *position, const Edge *edge, int nedges,
     t->triangle = triangle;
     t->own = own;
     t->nbad = 0;
+    t->inside_known = false;
     crossing_build_edges(&t->edges, position, edge, nedges);
     crossing_build_triangles(&t->triangles, position, triangle, ntriangles);
 }
@@ -51,7 +52,9 @@ void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *ow
     }
 }
 
-void tester_inside(const Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own, Residual *other) {
+void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own, Residual *other) {
+    if (t->inside_known) return;
+    t->inside_known = true;
     double to_metres = 1 / body->unit;
     for (int p = 0; p < body->body->nparts; p++)
         for (int v = 0; v < nvertices; v++) {
@@ -60,5 +63,6 @@ void tester_inside(const Tester *t, const BodyFrame *body, const Vec3 *position,
             Residual *r = t->own[v] & part_bit(body, p) ? own : other;
             r->inside++;
             r->deepest = fmax(r->deepest, -d);
+            if (r == own && t->nbad < 3 * t->capacity) t->bad[t->nbad++] = v;
         }
 }

@@ -2,7 +2,7 @@
    for each thing that can be shared (a curve's points, the points of a column between two
    nodes, the sewn side of a raw patch), so neighbouring patches share an edge because they use
    the same names, never because two positions happen to agree. */
-#include "garment/fit.h"
+#include "garment/fit_parts.h"
 
 #include <string.h>
 
@@ -294,14 +294,6 @@ static unsigned panel_pins(const Garment *g, int panel, int row) {
     return sides;
 }
 
-/* Does du x dw of the quad (u0 w0, u0 w1, u1 w0, u1 w1) point towards `centre`? */
-static bool points_inwards(const Vec3 q[4], Vec3 centre) {
-    Vec3 du = vec_sub(vec_add(q[2], q[3]), vec_add(q[0], q[1]));
-    Vec3 dw = vec_sub(vec_add(q[1], q[3]), vec_add(q[0], q[2]));
-    Vec3 middle = vec_mid(vec_mid(q[0], q[1]), vec_mid(q[2], q[3]));
-    return vec_dot(vec_cross(du, dw), vec_sub(middle, centre)) < 0;
-}
-
 static Vec3 arc_at(const FitCurve *c, double s) {
     double b[4];
     bezier_basis(s, b, NULL);
@@ -322,152 +314,20 @@ static void make_panel_patch(Tailor *t, int p, int k) {
         for (int j = 1; j < 3; j++)
             patch->point[4 * i + j] = i == 0 || i == 3 ? column_name(f, a->node[i == 3], b->node[i == 3], j) : --t->private_names;
     }
-    Vec3 q[4] = {arc_at(a, 0.25), arc_at(b, 0.25), arc_at(a, 0.75), arc_at(b, 0.75)};
-    patch->flip = points_inwards(q, vec_mid(t->ring[a->ring].centre, t->ring[b->ring].centre));
 }
 
-/* Where a bone's point of the reference figure lies on this one: along the bone by its length,
-   across by the girth. */
-static Vec3 warp_by_bone(const Tailor *t, const Figure *reference, Role bone, Vec3 p) {
-    Vec3 axis = vec_sub(reference->end[bone], reference->start[bone]);
-    Vec3 mine = vec_sub(t->figure->end[bone], t->figure->start[bone]);
-    double length = vec_len(axis), ratio = length > 1e-9 ? vec_len(mine) / length : 1;
-    Vec3 unit = vec_unit_or(axis, vec(0, 1, 0)), off = vec_sub(p, reference->start[bone]);
-    double along = vec_dot(off, unit);
-    Vec3 across = vec_mad(off, unit, -along);
-    return vec_mad(vec_mad(t->figure->start[bone], vec_unit_or(mine, unit), along * ratio), across, t->body->scale);
-}
-
-/* Sizes a raw patch to the figure; returns a point inside the body behind it. */
-static Vec3 warp_raw(const Tailor *t, const Figure *reference, const RawPatch *raw, Vec3 out[16]) {
-    Vec3 inside = {0, 0, 0};
-    for (int c = 0; c < 16; c++) {
-        out[c] = vec(0, 0, 0);
-        for (int b = 0; b < raw->binding[c].n; b++) {
-            Role bone = raw->binding[c].bone[b];
-            double weight = raw->binding[c].weight[b];
-            out[c] = vec_mad(out[c], warp_by_bone(t, reference, bone, raw->point[c]), weight);
-            Vec3 middle = vec_mid(t->figure->start[bone], t->figure->end[bone]);
-            if (is_leg(bone) && t->g->loose) middle.x = 0; /* a skirt goes round both legs */
-            inside = vec_mad(inside, middle, weight / 16);
-        }
-    }
-    return inside;
-}
-
-static bool make_raw_patches(Tailor *t, Error *e) {
-    const Garment *g = t->g;
+/* A panel's patches face one way: the way that most of their area says is outwards. */
+static void face_outwards(Tailor *t, int p) {
     Fit *f = t->fit;
-    f->raw = arena_array(t->arena, (size_t)g->npatches, sizeof *f->raw, e);
-    if (!f->raw) return false;
-    Figure reference = figure_reference();
-    for (int k = 0; k < g->npatches; k++) {
-        FitPatch *patch = &f->patch[f->npatches++];
-        *patch = (FitPatch){.panel = -1, .row = k};
-        Vec3 inside = warp_raw(t, &reference, &g->patch[k], f->raw[k]);
-        for (int c = 0; c < 16; c++) patch->point[c] = --t->private_names;
-        Patch shape;
-        memcpy(shape.p, f->raw[k], sizeof shape.p);
-        Vec3 q[4];
-        for (int c = 0; c < 4; c++) q[c] = bezier_point(&shape, c < 2 ? 0.25 : 0.75, c % 2 ? 0.75 : 0.25, NULL, NULL);
-        inside.y = vec_mid(q[0], q[3]).y;
-        patch->flip = points_inwards(q, inside);
-        for (int i = 0; i < g->ncollides; i++)
-            if (g->collide[i].from_ring < 0 && g->collide[i].piece == g->npanels + k) patch->collide |= g->collide[i].parts;
-        for (int i = 0; i < g->npins; i++)
-            if (g->pin[i].ring < 0 && g->pin[i].piece == g->npanels + k) patch->pinned |= 1u << g->pin[i].side;
+    const FitPanel *panel = &f->panel[p];
+    double outward = 0;
+    for (int k = 0; k + 1 < panel->nrows; k++) {
+        const FitCurve *a = &f->curve[panel->curve[k]], *b = &f->curve[panel->curve[k + 1]];
+        Vec3 q[4] = {arc_at(a, 0.25), arc_at(b, 0.25), arc_at(a, 0.75), arc_at(b, 0.75)};
+        outward += fit_outwardness(q, vec_mid(t->ring[a->ring].centre, t->ring[b->ring].centre));
     }
-    return true;
-}
-
-/* Indices of the four control points along a side, from its first to its last. */
-static void side_points(Side side, int out[4]) {
-    for (int k = 0; k < 4; k++)
-        out[k] = side == SIDE_START ? k : side == SIDE_END ? 12 + k : side == SIDE_TOP ? 4 * k : 4 * k + 3;
-}
-
-static void rename_point(Fit *f, int from, int to) {
-    for (int p = 0; p < f->npatches; p++)
-        for (int c = 0; c < 16; c++)
-            if (f->patch[p].point[c] == from) f->patch[p].point[c] = to;
-}
-
-/* Seams between raw patches give both sides the same names. The sides may run either way. */
-static bool sew(Tailor *t, Error *e) {
-    Fit *f = t->fit;
-    int first_raw = f->npatches - t->g->npatches;
-    for (int k = 0; k < t->g->nseams; k++) {
-        const Seam *s = &t->g->seam[k];
-        int a = s->piece_a - t->g->npanels, b = s->piece_b - t->g->npanels;
-        if (a < 0 || b < 0) continue; /* panels share by their stations */
-        int ia[4], ib[4];
-        side_points(s->side_a, ia);
-        side_points(s->side_b, ib);
-        const Vec3 *pa = f->raw[a], *pb = f->raw[b];
-        bool reversed = vec_dist(pa[ia[0]], pb[ib[3]]) < vec_dist(pa[ia[0]], pb[ib[0]]);
-        for (int i = 0; i < 4; i++) {
-            int x = ia[i], y = ib[reversed ? 3 - i : i];
-            if (vec_dist(pa[x], pb[y]) > 1e-5)
-                return error_set(e, ERR_INPUT, "garment '%s': the sides of seam %d do not meet", t->g->name, k + 1);
-            rename_point(f, f->patch[first_raw + b].point[y], f->patch[first_raw + a].point[x]);
-            f->raw[b][y] = f->raw[a][x];
-        }
-    }
-    return true;
-}
-
-/* Numbers the names 0..npoints-1 in order of first use. */
-static bool number_points(Tailor *t, Error *e) {
-    Fit *f = t->fit;
-    int *seen = ARENA_NEW(t->arena, int, 16 * f->npatches, e);
-    if (!seen) return false;
-    for (int p = 0; p < f->npatches; p++)
-        for (int c = 0; c < 16; c++) {
-            int id = 0;
-            while (id < f->npoints && seen[id] != f->patch[p].point[c]) id++;
-            if (id == f->npoints) seen[f->npoints++] = f->patch[p].point[c];
-            f->patch[p].point[c] = id;
-        }
-    return true;
-}
-
-void fit_side(const FitPatch *patch, Side side, int out[4]) {
-    int index[4];
-    side_points(side, index);
-    for (int k = 0; k < 4; k++) out[k] = patch->point[index[k]];
-}
-
-static bool is_border(const Fit *f, int patch, Side side) {
-    int mine[4], other[4];
-    fit_side(&f->patch[patch], side, mine);
-    for (int p = 0; p < f->npatches; p++)
-        for (int s = 0; s < 4; s++) {
-            if (p == patch && s == (int)side) continue;
-            fit_side(&f->patch[p], (Side)s, other);
-            bool same = other[1] == mine[1] && other[2] == mine[2], back = other[1] == mine[2] && other[2] == mine[1];
-            if (same || back) return false;
-        }
-    return true;
-}
-
-/* Border sides hang together at corners; each loop of them is an opening. label: npoints values. */
-static int count_openings(const Fit *f, int *label) {
-    int loops = 0;
-    for (int k = 0; k < f->npoints; k++) label[k] = -1;
-    for (int p = 0; p < f->npatches; p++)
-        for (int s = 0; s < 4; s++) {
-            if (!is_border(f, p, (Side)s)) continue;
-            int side[4];
-            fit_side(&f->patch[p], (Side)s, side);
-            int a = label[side[0]], b = label[side[3]];
-            if (a < 0 && b < 0) loops++;
-            else if (a >= 0 && b >= 0 && a != b) loops--;
-            int mine = a >= 0 ? a : b >= 0 ? b : side[0];
-            for (int k = 0; k < f->npoints && b >= 0 && b != mine; k++)
-                if (label[k] == b) label[k] = mine;
-            label[side[0]] = label[side[3]] = mine;
-        }
-    return loops;
+    for (int k = 0; k < f->npatches; k++)
+        if (f->patch[k].panel == p) f->patch[k].flip = outward < 0;
 }
 
 /* A patch for which nothing is said meets every part that the garment names at all. */
@@ -489,10 +349,9 @@ bool fit_garment(const Garment *garment, const Figure *figure, const Body *body,
     if (!make_nodes(&t, e) || !make_panels(&t, e)) return false;
     for (int p = 0; p < out->npanels; p++)
         for (int k = 0; k + 1 < out->panel[p].nrows; k++) make_panel_patch(&t, p, k);
-    if (!make_raw_patches(&t, e) || !sew(&t, e) || !number_points(&t, e)) return false;
+    for (int p = 0; p < out->npanels; p++) face_outwards(&t, p);
+    if (!fit_raw_patches(out, figure, body, &t.private_names, arena, e)) return false;
+    if (!fit_number_points(out, arena, e)) return false;
     complete_colliders(out);
-    int *label = ARENA_NEW(arena, int, out->npoints, e);
-    if (!label) return false;
-    out->nopenings = count_openings(out, label);
     return true;
 }
