@@ -97,7 +97,7 @@ static bool same_garment(const Garment *a, const Garment *b) {
 static void reads_rings(void) {
     const Garment *g = parse_good("garment g\nring a left_thigh -.25 tilt -30 shift 0.1 -0.2 0.3 ease 1e-2 size 1 2 3\n"
                                   "move a.back 0 0 -0.05\nbind a pelvis 3 left_thigh 1\nbind a.left left_thigh 7\n"
-                                  "ring b left_shin 1\npanel p\nrow a left back\nrow b left back\n");
+                                  "ring b left_shin 1 shift 0 1 -0\npanel p\nrow a left back\nrow b left back\n");
     if (!OK(g, "a ring with every property is read")) return;
     const Ring *r = &g->ring[0];
     OK(r->part == ROLE_LEFT_THIGH && r->at == -0.25 && r->ease == 0.01 && r->tilt == -30, "part, place, ease and tilt");
@@ -107,6 +107,7 @@ static void reads_rings(void) {
     OK(all->n == 2 && all->weight[0] == 0.75 && all->weight[1] == 0.25, "weights are made to sum to 1");
     OK(own->n == 1 && own->bone[0] == ROLE_LEFT_THIGH && own->weight[0] == 1,
        "a station's own binding wins over its ring's");
+    OK(!signbit(g->ring[1].shift.z), "-0 is read as 0");
     OK(g->ring[1].binding[0].n == 0, "a ring without bind has no binding");
     OK(g->follow == FOLLOW_BONES && !g->loose && g->detail == 0, "defaults: bones, tight, no detail");
 }
@@ -167,6 +168,32 @@ static void mirrors(void) {
            g->collide[2].parts == (1u << ROLE_PELVIS | 1u << ROLE_RIGHT_THIGH),
        "colliders change sides");
     OK(g->nseams == 2 && g->seam[1].piece_a == garment_find_piece(g, "right_p"), "seams have an image");
+}
+
+/* Columns of a patch below FLAT, and of one beside it that stands on its head. */
+#define LOW(x) #x " .7 0 pelvis 1\n" #x " .6 0 pelvis 1\n" #x " .5 0 pelvis 1\n" #x " .4 0 pelvis 1\n"
+#define UP(x) #x " .7 0 pelvis 1\n" #x " .8 0 pelvis 1\n" #x " .9 0 pelvis 1\n" #x " 1 0 pelvis 1\n"
+
+static void seams_meet(void) {
+    static const struct {
+        const char *says, *text;
+    } cases[] = {
+        {"sides of panels that use the same stations", TWO "seam p.end q.start\nseam q.end p.start\n"},
+        {"the same in the opposite order",
+         PANEL "panel q\nrow c left back\nrow b left back\nrow a left back\nseam q.start p.start\n"},
+        {"bottom and top on one ring", RINGS "panel p\nrow a left front right\nrow b left front right\npanel q\n"
+                                             "row b right front left\nrow c right front left\nseam p.bottom q.top\n"},
+        {"stations that are joined",
+         RINGS "ring d pelvis 1\nring e pelvis 0\njoin a.right d.left\njoin e.left b.right\n"
+               "panel p\nrow a front right\nrow b front right\npanel q\nrow d left front\n"
+               "row e left front\nseam p.end q.start\n"},
+        {"end and start of raw patches", "garment g\npatch s\n" FLAT "patch t\n" NEXT "seam t.start s.end\n"},
+        {"bottom and top of raw patches",
+         "garment g\npatch s\n" FLAT "patch t\n" LOW(0) LOW(.1) LOW(.2) LOW(.3) "seam s.bottom t.top\n"},
+        {"a patch on its head",
+         "garment g\npatch s\n" FLAT "patch t\n" UP(.3) UP(.4) UP(.5) UP(.6) "seam s.end t.start\n"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) OK(parse_good(cases[i].text), "seam: %s", cases[i].says);
 }
 
 /* ---- writing and reading again ---- */
@@ -458,6 +485,7 @@ int main(void) {
     reads_rings();
     reads_pieces();
     mirrors();
+    seams_meet();
     round_trips();
     shipped();
     documented();
