@@ -4,7 +4,7 @@
 
 walk=$root/motions/paper-walk.bvh
 skirt=$root/garments/skirt.garment
-commands='dress inspect walk'
+commands='dress inspect walk verify'
 
 says() { # says PATTERN: a line of stderr of the last must_fail matches
     grep -Eq -e "$1" err || { echo "stderr has no line like: $1"; cat err; return 1; }
@@ -51,7 +51,7 @@ nonsense() {
         sed -n 's/^  \(-.,\|   \) --\([a-z-]*\) \([A-Z].*\)$/\2 \3/p' help.$command >options
         [ -s options ] || [ "$command" = inspect ] || return 1
         while read -r name argument _; do
-            case $argument in FILE | DIR) continue ;; esac
+            case $argument in FILE | DIR | NAMES) continue ;; esac
             refuses 2 "option '--$name'" "$command" "--$name=nonsense" || return 1
             refuses 2 "option '--$name'" "$command" "--$name=" || return 1
             refuses 2 "option '--$name'" "$command" "--$name" || return 1
@@ -105,6 +105,9 @@ for span in 0 3:2 1:2:0 a 1:2:3:4 1.5 -3 1::-1; do
 done
 ok 'nothing to inspect' refuses 2 'nothing to inspect' inspect
 ok '--joints takes one file' refuses 2 "'--joints'" inspect --joints "$walk" "$walk"
+ok 'nothing to verify' refuses 2 'nothing to verify' verify
+ok 'a garment without a body' refuses 2 "needs '--body'" verify -g x
+ok 'folders or meshes, not both' refuses 2 "'x' and '--body'" verify --body b x
 ok 'walk reads no file' refuses 2 "'walk' reads no file" walk "$walk"
 
 # The same run, spelled in many ways.

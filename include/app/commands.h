@@ -8,5 +8,6 @@
 ErrorKind cmd_dress(const Settings *settings, Error *e);
 ErrorKind cmd_inspect(const Settings *settings, Error *e);
 ErrorKind cmd_walk(const Settings *settings, Error *e);
+ErrorKind cmd_verify(const Settings *settings, Error *e);
 
 #endif

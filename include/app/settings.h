@@ -7,7 +7,7 @@
 #include "files/drc.h"
 #include "motion/gait.h"
 
-typedef enum { COMMAND_DRESS = 1, COMMAND_INSPECT = 2, COMMAND_WALK = 4, COMMAND_ALL = 7 } CommandBit;
+typedef enum { COMMAND_DRESS = 1, COMMAND_INSPECT = 2, COMMAND_WALK = 4, COMMAND_VERIFY = 8, COMMAND_ALL = 15 } CommandBit;
 
 /* Frames first, first + step, ... up to last, counted from 1. 0: from the first, to the last,
    every one. */
@@ -51,6 +51,8 @@ typedef struct {
     int progress;               /* ProgressMode */
 
     bool joints;                /* inspect */
+    bool list;                  /* verify */
+    const char *parts;          /* verify: groups of the body, separated by commas; NULL = all */
     Gait gait;                  /* walk */
     const char *job;            /* file with more of these */
     bool print_job, help, version;

@@ -10,6 +10,7 @@
 typedef struct {
     char *text; /* of the last file */
     size_t size, capacity;
+    double metre; /* how many units of the file the first line says a metre has; 0: as many as `unit` */
 } ObjWriter;
 
 /* Writes mesh to `path` as v / vt / vn / g / f lines, positions times `unit` (output units per

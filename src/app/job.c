@@ -197,6 +197,7 @@ void job_run(const Wardrobe *wardrobe, const Input *input, const JobWatch *watch
     j->arena = &memory->arena;
     j->obj = &memory->obj;
     j->unit = j->settings->output_unit > 0 ? 1 / j->settings->output_unit : 1;
+    j->obj->metre = j->unit;
     bool good = run(j, watch, &out->error);
     if (j->take) take_notes(j->take, notes);
     if (about && (good || out->error.kind == ERR_CHECK)) tell(j, about);

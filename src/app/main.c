@@ -23,6 +23,11 @@ static const Command commands[] = {
      .operands = "[OPTION]...",
      .example = "kitsuke walk --preset paper -o paper-walk.bvh\n"
                 "kitsuke walk --height 1.2 --speed 0.9 --steps 20 > child.bvh"},
+    {.name = "verify", .bit = COMMAND_VERIFY, .run = cmd_verify,
+     .summary = "test written meshes: what shows through, what cracks",
+     .operands = "[OPTION]... DIR... | --garment FILE --body FILE",
+     .example = "kitsuke verify out > verify.csv\n"
+                "kitsuke verify --garment 'cloth.####.obj' --body 'body.####.obj'"},
     {0}};
 
 static const Command *find_command(const char *name) {

@@ -113,7 +113,7 @@ static bool put_faces(ObjWriter *w, const Mesh *mesh, Error *e) {
 
 bool obj_format(ObjWriter *w, const Mesh *mesh, double unit, Error *e) {
     w->size = 0;
-    return put_head(w, unit, e) && put_vertices(w, mesh, unit, e) && put_faces(w, mesh, e);
+    return put_head(w, w->metre > 0 ? w->metre : unit, e) && put_vertices(w, mesh, unit, e) && put_faces(w, mesh, e);
 }
 
 bool obj_write(ObjWriter *w, const char *path, const Mesh *mesh, double unit, long long *bytes, Error *e) {

@@ -1,0 +1,266 @@
+/* kitsuke verify: frame by frame, the meshes that are on the disk and nothing else: what made them,
+   this program or another, is not asked.
+
+   A frame that cannot be read is an error on stderr, and the others are tested all the same. */
+#include <string.h>
+
+#include "app/commands.h"
+#include "app/reels.h"
+#include "app/stop.h"
+#include "dress/verify.h"
+#include "files/drc.h"
+#include "files/obj.h"
+
+/* Gaps in a border up to this are cracks: wider than any rounding, narrower than any slit. Metres. */
+static const double CRACK = 0.002;
+
+enum { OBJ_LIMIT = 1 << 30 };
+
+typedef struct {
+    const Settings *settings;
+    Arena arena;             /* of the frame */
+    ErrorKind worst;
+    const Reel *reel;
+    int frame;
+    const Sequence *garment;
+    Mesh body;
+    double body_unit, garment_unit; /* metres */
+    long long frames, bad_frames, pairs, inside, cracks;
+    double deepest;
+} Run;
+
+static void complain(Run *r, const Error *e) {
+    if (e->kind > r->worst) r->worst = e->kind;
+    fflush(stdout);
+    error_print(e, stderr);
+}
+
+static bool has_ending(const char *path, const char *ending) {
+    size_t n = strlen(path), m = strlen(ending);
+    return n > m && strcmp(path + n - m, ending) == 0;
+}
+
+/* Our own files tell their unit in the first line. */
+static double unit_of(const Text *text, double fallback) {
+    static const char head[] = "# kitsuke: Y up, ";
+    double units = 0;
+    if (text->size < sizeof head || memcmp(text->data, head, sizeof head - 1) != 0) return fallback;
+    text_number(text->data + sizeof head - 1, text->data + text->size, &units);
+    return units > 0 && isfinite(units) ? 1 / units : fallback;
+}
+
+static bool read_mesh(Run *r, const char *path, Mesh *out, double *unit, Error *e) {
+    Text text;
+    *unit = 1;
+    if (has_ending(path, ".drc")) {
+        if (!drc_read(path, &r->arena, out, e)) return false;
+    } else {
+        if (!text_read(path, OBJ_LIMIT, &r->arena, &text, e) || !obj_parse(&text, &r->arena, out, e)) return false;
+        *unit = unit_of(&text, 1);
+    }
+    if (r->settings->unit > 0) *unit = r->settings->unit;
+    return out->ntriangles > 0 || error_at(e, ERR_INPUT, (Place){.file = path}, "no triangles");
+}
+
+/* --- which parts of the body count --- */
+
+/* Marks the groups called `name` (length bytes). */
+static bool mark_part(const Mesh *body, const char *path, const char *name, size_t length, bool *wanted, Error *e) {
+    bool found = false;
+    for (int g = 0; g < body->ngroups; g++)
+        if (strlen(body->group[g].name) == length && memcmp(body->group[g].name, name, length) == 0)
+            found = wanted[g] = true;
+    if (found) return true;
+    char has[160];
+    size_t used = 0;
+    for (int g = 0; g < body->ngroups && used < sizeof has; g++)
+        used += (size_t)snprintf(has + used, sizeof has - used, "%s%s", g ? ", " : "", body->group[g].name);
+    return error_set(e, ERR_USAGE, "option '--parts': '%s' has no group '%.*s'; it has %s", path,
+                     (int)(length < 40 ? length : 40), name, body->ngroups ? has : "none");
+}
+
+static bool find_parts(Run *r, const char *path, bool **wanted, Error *e) {
+    *wanted = NULL;
+    if (!r->settings->parts) return true;
+    *wanted = ARENA_NEW(&r->arena, bool, r->body.ngroups, e);
+    bool good = *wanted != NULL;
+    for (const char *at = r->settings->parts; good; at++) {
+        size_t length = strcspn(at, ",");
+        good = mark_part(&r->body, path, at, length, *wanted, e);
+        at += length;
+        if (!*at) break;
+    }
+    return good;
+}
+
+/* --- output --- */
+
+/* Names with commas or quotes are quoted as CSV asks for. */
+static void print_text(const char *text) {
+    bool plain = !text[strcspn(text, ",\"\r\n")];
+    if (!plain) putchar('"');
+    for (; *text; text++) {
+        if (*text == '"') putchar('"');
+        putchar(*text);
+    }
+    if (!plain) putchar('"');
+    putchar(',');
+}
+
+static void print_head(const Settings *s) {
+    if (s->list)
+        printf("# units: distance m; at as in the meshes\n"
+               "motion,frame,garment,kind,item,part,other,distance,at_x,at_y,at_z\n");
+    else
+        printf("# units: deepest m; all other numbers are counts\n"
+               "motion,frame,garment,pairs,inside,deepest,worst_part,cracks,borders\n");
+}
+
+static void print_start(const Run *r) {
+    print_text(r->reel->motion);
+    printf("%d,", r->frame);
+    print_text(r->garment->name);
+}
+
+static const char *group_name(const Mesh *m, int group) { return group >= 0 ? m->group[group].name : ""; }
+
+static int group_of(const Mesh *m, int triangle) {
+    for (int g = 0; g < m->ngroups; g++)
+        if (triangle >= m->group[g].first && triangle < m->group[g].first + m->group[g].count) return g;
+    return -1;
+}
+
+/* Items are counted from 1, as an OBJ file does. */
+static void print_finding(void *context, const Finding *f) {
+    const Run *r = context;
+    static const char *const kinds[] = {"pair", "inside", "crack"};
+    print_start(r);
+    printf("%s,%d,", kinds[f->kind], f->item + 1);
+    print_text(f->other < 0 ? "" : group_name(&r->body, group_of(&r->body, f->other)));
+    if (f->other >= 0) printf("%d", f->other + 1);
+    printf(",%.6f,%.6f,%.6f,%.6f\n", f->distance * r->garment_unit, f->at.x, f->at.y, f->at.z);
+}
+
+static void print_verdict(const Run *r, const Verdict *v) {
+    print_start(r);
+    printf("%d,%d,%.6f,", v->pairs, v->inside, v->deepest * r->garment_unit);
+    print_text(group_name(&r->body, v->worst));
+    printf("%d,%d\n", v->cracks, v->borders);
+}
+
+static void print_summary(const Run *r) {
+    fprintf(stderr, "%lld mesh%s, %lld with findings: %lld pairs, %lld vertices inside, deepest %.2f mm, %lld cracks\n",
+            r->frames, r->frames == 1 ? "" : "es", r->bad_frames, r->pairs, r->inside, 1000 * r->deepest, r->cracks);
+}
+
+/* --- testing --- */
+
+static bool verify_garment(Run *r, const Solid *solid, const char *path, Error *e) {
+    Mesh mesh;
+    Verdict v;
+    Findings findings = {r->settings->list ? print_finding : NULL, r};
+    if (!read_mesh(r, path, &mesh, &r->garment_unit, e)) return false;
+    if (r->garment_unit != r->body_unit)
+        return error_at(e, ERR_INPUT, (Place){.file = path}, "its unit is %.9g m, that of the body %.9g m",
+                        r->garment_unit, r->body_unit);
+    if (!verify_meshes(solid, &mesh, CRACK / r->garment_unit, findings, &r->arena, &v, e)) return false;
+    if (!r->settings->list) print_verdict(r, &v);
+    r->frames++;
+    r->bad_frames += v.pairs || v.inside || v.cracks;
+    r->pairs += v.pairs;
+    r->inside += v.inside;
+    r->cracks += v.cracks;
+    r->deepest = fmax(r->deepest, v.deepest * r->garment_unit);
+    return true;
+}
+
+/* False ends the run: a mistake in the command line, or no memory. */
+static bool verify_frame(Run *r, Error *e) {
+    Error trouble = {0};
+    Solid solid;
+    bool *wanted;
+    const char *path = sequence_path(&r->reel->body, r->frame);
+    arena_reset(&r->arena);
+    if (!path) return true;
+    if (!read_mesh(r, path, &r->body, &r->body_unit, &trouble)) {
+        complain(r, &trouble);
+        return true;
+    }
+    if (!find_parts(r, path, &wanted, e) || !solid_make(&r->body, wanted, &r->arena, &solid, e)) return false;
+    for (int g = 0; g < r->reel->ngarments; g++) {
+        r->garment = &r->reel->garment[g];
+        path = sequence_path(r->garment, r->frame);
+        trouble = (Error){0};
+        if (path && !verify_garment(r, &solid, path, &trouble)) complain(r, &trouble);
+    }
+    return true;
+}
+
+static void say_missing(Run *r, const Sequence *s, int first, int last) {
+    Error e = {0};
+    Place place = {.file = s->pattern};
+    if (first == last) error_at(&e, ERR_INPUT, place, "frame %d is missing", first);
+    else error_at(&e, ERR_INPUT, place, "frames %d to %d are missing", first, last);
+    complain(r, &e);
+}
+
+/* Frames that another sequence has, and gaps in the row of numbers. */
+static void report_missing(Run *r, const Sequence *s, const int *frame, int n, int step) {
+    int first = 0, last = 0;
+    for (int i = 0; !s->still && i < n; i++) {
+        bool there = sequence_path(s, frame[i]) != NULL, gap = i > 0 && frame[i] - frame[i - 1] > step;
+        if (gap) {
+            if (!first) first = frame[i - 1] + step;
+            last = frame[i] - step;
+        }
+        if (!there) {
+            if (!first) first = frame[i];
+            last = frame[i];
+        } else if (first) {
+            say_missing(r, s, first, last);
+            first = 0;
+        }
+    }
+    if (first) say_missing(r, s, first, last);
+}
+
+static bool verify_reel(Run *r, Arena *arena, Error *e) {
+    int *frame = NULL, n = 0, step = 0;
+    if (r->reel->error.kind) {
+        complain(r, &r->reel->error);
+        return true;
+    }
+    if (!reel_frames(r->reel, &r->settings->frames, arena, &frame, &n, &step, e)) return false;
+    if (n == 0)
+        return error_set(e, ERR_USAGE, "option '--frames': '%s' has none of them", r->reel->body.pattern);
+    report_missing(r, &r->reel->body, frame, n, step);
+    for (int g = 0; g < r->reel->ngarments; g++) report_missing(r, &r->reel->garment[g], frame, n, step);
+    for (int i = 0; i < n && !ferror(stdout); i++) {
+        if (stop_requested()) return error_set(e, ERR_INTERRUPTED, "interrupted");
+        r->frame = frame[i];
+        if (!verify_frame(r, e)) return false;
+    }
+    return true;
+}
+
+ErrorKind cmd_verify(const Settings *s, Error *e) {
+    Arena arena = {0};
+    Run run = {.settings = s};
+    Reel *reel = NULL;
+    int count = 0;
+    stop_listen();
+    bool good = reels_find(s, &arena, &reel, &count, e);
+    if (good) print_head(s);
+    for (int i = 0; good && i < count; i++) {
+        run.reel = &reel[i];
+        good = verify_reel(&run, &arena, e);
+    }
+    if (good && !s->quiet) {
+        fflush(stdout);
+        print_summary(&run);
+    }
+    if (!run.worst && run.bad_frames) run.worst = ERR_CHECK;
+    arena_free(&run.arena);
+    arena_free(&arena);
+    return good ? run.worst : e->kind;
+}
