@@ -162,8 +162,14 @@ else
     skip 'a full disk' 'cannot mount a small one'
 fi
 
-# --strict: a ring that is pinned inside the body
-sed 's/^ring hip.*/ring hip pelvis 0.40 size 0.05 0.05 0.05/; s/^pin waist/&\npin hip/' "$skirt" >tight.garment
+# --strict: a sheet that the thighs pierce; no push can free it
+{
+    printf 'garment skirt\nfollow bones\nfit tight\npatch sheet\n'
+    for x in -0.6 -0.2 0.2 0.6; do
+        for z in -0.6 -0.2 0.2 0.6; do printf '%s 0.7 %s pelvis 1\n' "$x" "$z"; done
+    done
+    printf 'collide sheet left_thigh right_thigh\n'
+} >tight.garment
 ok 'what cannot be solved is counted, not hidden' dress "$walk" -g tight.garment -o tight --frames 1:2 --format none
 is 'in residual_frames' "$(column residual_frames tight/summary.csv)" 2
 ok '--strict makes it exit 1' must_fail 1 dress "$walk" -g tight.garment -o strict --frames 1:2 --strict

@@ -31,7 +31,8 @@ static void split_keeps_the_surface(void) {
             Vec3 whole = bezier_point(&patch, u0 + 0.5 * u, w0 + 0.5 * w, NULL, NULL);
             Patch part = bezier_part(&patch, u0, u0 + 0.5, w0, w0 + 0.5);
             worst = fmax(worst, vec_dist(whole, bezier_point(&child[k], u, w, NULL, NULL)));
-            for (int c = 0; c < 16; c++) part_worst = fmax(part_worst, vec_dist(part.p[c / 4][c % 4], child[k].p[c / 4][c % 4]));
+            for (int c = 0; c < 16; c++)
+                part_worst = fmax(part_worst, vec_dist(part.p[c / 4][c % 4], child[k].p[c / 4][c % 4]));
         }
     }
     NEAR(worst, 0, 1e-14, "the four children lie on the patch");
@@ -43,8 +44,10 @@ static void children_share_their_borders(void) {
     bezier_split(&patch, child);
     bool same = true;
     for (int k = 0; k < 4; k++) {
-        same = same && vec_dist(child[0].p[3][k], child[2].p[0][k]) == 0 && vec_dist(child[1].p[3][k], child[3].p[0][k]) == 0;
-        same = same && vec_dist(child[0].p[k][3], child[1].p[k][0]) == 0 && vec_dist(child[2].p[k][3], child[3].p[k][0]) == 0;
+        same = same && vec_dist(child[0].p[3][k], child[2].p[0][k]) == 0 &&
+               vec_dist(child[1].p[3][k], child[3].p[0][k]) == 0;
+        same = same && vec_dist(child[0].p[k][3], child[1].p[k][0]) == 0 &&
+               vec_dist(child[2].p[k][3], child[3].p[k][0]) == 0;
     }
     OK(same, "neighbouring children have literally the same control points: 49, not 64");
 }
@@ -56,8 +59,10 @@ static void derivatives_are_limits(void) {
         double u = 0.1 + 0.8 * random_unit(), w = 0.1 + 0.8 * random_unit();
         Vec3 du, dw;
         bezier_point(&patch, u, w, &du, &dw);
-        Vec3 nu = vec_scale(vec_sub(bezier_point(&patch, u + h, w, NULL, NULL), bezier_point(&patch, u - h, w, NULL, NULL)), 0.5 / h);
-        Vec3 nw = vec_scale(vec_sub(bezier_point(&patch, u, w + h, NULL, NULL), bezier_point(&patch, u, w - h, NULL, NULL)), 0.5 / h);
+        Vec3 nu = vec_scale(
+            vec_sub(bezier_point(&patch, u + h, w, NULL, NULL), bezier_point(&patch, u - h, w, NULL, NULL)), 0.5 / h);
+        Vec3 nw = vec_scale(
+            vec_sub(bezier_point(&patch, u, w + h, NULL, NULL), bezier_point(&patch, u, w - h, NULL, NULL)), 0.5 / h);
         worst = fmax(worst, fmax(vec_dist(du, nu), vec_dist(dw, nw)));
     }
     NEAR(worst, 0, 1e-8, "du and dw are the central differences' limits");
@@ -85,7 +90,8 @@ static void normals(void) {
 static void hermite(void) {
     Vec3 out[4], a = {0, 1, 2}, b = {3, 1, 4}, da = {1, 0, 0}, db = {0, 0, 2};
     bezier_from_hermite(a, da, b, db, 0.5, out);
-    NEAR(vec_dist(vec_scale(vec_sub(out[1], out[0]), 3 / 0.5), da), 0, 1e-14, "a Hermite segment leaves with its slope");
+    NEAR(vec_dist(vec_scale(vec_sub(out[1], out[0]), 3 / 0.5), da), 0, 1e-14,
+         "a Hermite segment leaves with its slope");
     NEAR(vec_dist(vec_scale(vec_sub(out[3], out[2]), 3 / 0.5), db), 0, 1e-14, "and arrives with its slope");
 }
 

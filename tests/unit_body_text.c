@@ -52,7 +52,8 @@ static void test_shipped_adult(void) {
     char *adult = written(body_default());
     OK(body_read("garments/adult.body", &arena, &shipped, &e), "garments/adult.body is read %s", e.text);
     OK(memcmp(&shipped, body_default(), sizeof shipped) == 0, "it is the compiled-in adult");
-    OK(text_read("garments/adult.body", 1 << 20, &arena, &text, &e) && strstr(text.data, adult), "as body_write writes it");
+    OK(text_read("garments/adult.body", 1 << 20, &arena, &text, &e) && strstr(text.data, adult),
+       "as body_write writes it");
     free(adult);
     arena_free(&arena);
 }
@@ -60,7 +61,11 @@ static void test_shipped_adult(void) {
 static void test_bad_text(void) {
 #define HEAD "body b\npart neck\n"
 #define TWO "section 0 0 0 .1 .1 .1\nsection 1 0 0 .1 .1 .1\n"
-    static const struct { const char *text; int line, column; const char *says; } bad[] = {
+    static const struct {
+        const char *text;
+        int line, column;
+        const char *says;
+    } bad[] = {
         {"", 1, 1, "empty body file"},
         {"part neck\n", 1, 1, "expected 'body NAME'"},
         {"body\n", 1, 5, "expected a name"},
@@ -94,8 +99,8 @@ static void test_bad_text(void) {
         Text text = text_of(bad[i].text);
         bool refused = !body_parse(&text, &out, &e);
         bool placed = e.kind == ERR_INPUT && e.line == bad[i].line && e.column == bad[i].column;
-        OK(refused && placed && strstr(e.text, bad[i].says),
-           "refused at %d:%d: %s (%d:%d %s)", bad[i].line, bad[i].column, bad[i].says, e.line, e.column, e.text);
+        OK(refused && placed && strstr(e.text, bad[i].says), "refused at %d:%d: %s (%d:%d %s)", bad[i].line,
+           bad[i].column, bad[i].says, e.line, e.column, e.text);
     }
     char many[4096] = HEAD;
     for (int i = 0; i <= SPEC_SECTIONS_MAX; i++)

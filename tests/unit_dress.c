@@ -122,11 +122,15 @@ static void field_is_smooth(Scene *s, const char *name) {
     (void)name;
 }
 
-typedef struct { int from, to; } Half;
+typedef struct {
+    int from, to;
+} Half;
 
 static int compare_halves(const void *a, const void *b) { return memcmp(a, b, sizeof(Half)); }
 
-static bool has_half(const Half *h, size_t n, Half key) { return bsearch(&key, h, n, sizeof *h, compare_halves) != NULL; }
+static bool has_half(const Half *h, size_t n, Half key) {
+    return bsearch(&key, h, n, sizeof *h, compare_halves) != NULL;
+}
 
 /* Loops of edges that only one triangle uses. A border vertex has one edge in and one out. */
 static int border_loops(const Sheet *s, bool *sound) {
@@ -162,7 +166,8 @@ static void split_at_random(Scene *s) {
     leaves_fill(&s->leaves, 0);
     for (int k = 0; k < s->fit.npatches; k++) {
         int level = (int)(random_unit() * (DEPTH + 1)), cells = 1 << level;
-        leaves_split(&s->leaves, (int)(random_unit() * s->fit.npatches), level, (int)(random_unit() * cells), (int)(random_unit() * cells));
+        leaves_split(&s->leaves, (int)(random_unit() * s->fit.npatches), level, (int)(random_unit() * cells),
+                     (int)(random_unit() * cells));
     }
 }
 
@@ -172,7 +177,8 @@ static double smallest_area(const Scene *s) {
         Vec3 x[3];
         for (int c = 0; c < 3; c++) {
             int n = s->lattice.side + 1, o = s->lattice.owner[s->sheet.place[s->sheet.triangle[t].v[c]]];
-            x[c] = bezier_point(&s->root[o / (n * n)], (double)(o / n % n) / (n - 1), (double)(o % n) / (n - 1), NULL, NULL);
+            x[c] = bezier_point(&s->root[o / (n * n)], (double)(o / n % n) / (n - 1), (double)(o % n) / (n - 1), NULL,
+                                NULL);
         }
         least = fmin(least, vec_len(vec_cross(vec_sub(x[1], x[0]), vec_sub(x[2], x[0]))));
     }
@@ -207,7 +213,8 @@ static double from_body(const Scene *s, const FitPatch *patch, Vec3 x) {
     double nearest = INFINITY;
     for (int b = 0; b < s->body.nparts; b++) {
         const BodyPart *part = &s->body.part[b];
-        if (patch->collide >> part->role & 1) nearest = fmin(nearest, body_distance(part, rigid_unapply(part->frame, x), 1, NULL));
+        if (patch->collide >> part->role & 1)
+            nearest = fmin(nearest, body_distance(part, rigid_unapply(part->frame, x), 1, NULL));
     }
     return nearest;
 }
@@ -219,7 +226,8 @@ static void outward(Scene *s, const char *name) {
     for (int p = 0; p < s->fit.npatches; p++) {
         Vec3 x = bezier_point(&s->root[p], 0.5, 0.5, NULL, NULL), n = bezier_normal(&s->root[p], 0.5, 0.5);
         double step = s->fit.patch[p].flip ? -0.02 : 0.02;
-        inwards += from_body(s, &s->fit.patch[p], vec_mad(x, n, step)) <= from_body(s, &s->fit.patch[p], vec_mad(x, n, -step));
+        inwards +=
+            from_body(s, &s->fit.patch[p], vec_mad(x, n, step)) <= from_body(s, &s->fit.patch[p], vec_mad(x, n, -step));
     }
     OK(inwards == 0, "%s: all %d patches face away from the body", name, s->fit.npatches);
 }
@@ -235,8 +243,10 @@ static void rest_is_clear(Scene *s, const char *name) {
     need(dresser_open(s->garment, &s->figure, &s->body, &(DressOptions){0}, &arena, &d, &error));
     body_frame_pose(body, &rest);
     dresser_frame(d, body, 1 / 30.0, true, &mesh, &stats);
-    OK(stats.residual_edges + stats.residual_cloth + stats.inside == 0, "%s: nothing shows through in the canonical stance", name);
-    OK(stats.displacement < 0.03, "%s: its rest shape fits the figure (moved %.1f mm)", name, 1000 * stats.displacement);
+    OK(stats.residual_edges + stats.residual_cloth + stats.inside == 0,
+       "%s: nothing shows through in the canonical stance", name);
+    OK(stats.displacement < 0.03, "%s: its rest shape fits the figure (moved %.1f mm)", name,
+       1000 * stats.displacement);
     double off = 0;
     for (int v = 0; v < mesh.nvertices; v++) off = fmax(off, fabs(vec_len(mesh.normal[v]) - 1));
     NEAR(off, 0, 1e-12, "normals are unit vectors");

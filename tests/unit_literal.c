@@ -154,7 +154,8 @@ static void plain_tests_find_the_same(Scene *s) {
     for (int k = 0; k < n; k++)
         for (int i = 0; i < m; i++) found += one[k].edge == other[i].edge && one[k].triangle == other[i].triangle;
     OK(n > 0 && n == m && found == n, "with and without culling: the same %d pairs", n);
-    OK(plain.pairs_tested == plain.pairs_all && plain.pairs_all == culled.pairs_all, "without culling every pair is tested");
+    OK(plain.pairs_tested == plain.pairs_all && plain.pairs_all == culled.pairs_all,
+       "without culling every pair is tested");
     OK(culled.pairs_tested < culled.pairs_all, "with it not");
 }
 

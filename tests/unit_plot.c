@@ -47,7 +47,8 @@ static void test_file(void) {
     }
     few[20] = NAN;
     PlotSeries series[] = {{"uniform", PLOT_SOLID, N, x, many}, {"adaptive <&>", PLOT_DASHED, N, x, few}};
-    Plot plot[] = {{"(a) Intersection tests", "frame", "tests", 2, series}, {"(b) Time", "frame", "seconds", 1, series}};
+    Plot plot[] = {{"(a) Intersection tests", "frame", "tests", 2, series},
+                   {"(b) Time", "frame", "seconds", 1, series}};
     const char *path = in_folder("a.svg"), *again = in_folder("b.svg");
     Error e = {0};
     Arena arena = {0};

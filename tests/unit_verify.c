@@ -112,7 +112,8 @@ static void test_touching(void) {
     OK(verify(&body, &m).pairs == 0, "in the plane of a face, beside it");
     m = triangle(vec(-9, -9, 1), vec(30, -9, 1), vec(-9, 30, 1));
     v = verify(&body, &m);
-    OK(v.pairs == 10 && v.inside == 0, "in its plane, all round it: two triangles lie in it, eight touch it (%d)", v.pairs);
+    OK(v.pairs == 10 && v.inside == 0, "in its plane, all round it: two triangles lie in it, eight touch it (%d)",
+       v.pairs);
 }
 
 static Shells shells(const Mesh *m) {
@@ -168,8 +169,8 @@ static void test_shells(void) {
     bool wanted[2] = {true, false};
     Solid left;
     Mesh far = triangle(vec(1.5, 0.5, 0.5), vec(1.5, 0.5, 3), vec(1.6, 0.5, 3));
-    bool good = solid_make(&two, wanted, &arena, &left, &e) &&
-                verify_meshes(&left, &far, 0.002, (Findings){0}, &arena, &v, &e);
+    bool good =
+        solid_make(&two, wanted, &arena, &left, &e) && verify_meshes(&left, &far, 0.002, (Findings){0}, &arena, &v, &e);
     OK(good && v.pairs == 0 && v.inside == 0, "a part that is not wanted does not count");
     OK(verify(&two, &far).worst == 1, "and is the worst where it does");
 

@@ -16,7 +16,8 @@ typedef struct {
 } Follower;
 
 /* Takes the memory for a fit. Figure and body must outlive it. */
-MUST_CHECK bool follow_reserve(Follower *f, const Fit *fit, const Figure *figure, const Body *body, Arena *arena, Error *e);
+MUST_CHECK bool follow_reserve(Follower *f, const Fit *fit, const Figure *figure, const Body *body,
+                               Arena *arena, Error *e);
 
 /* The root patches (fit->npatches) of the garment in a pose: world frame, metres. Patches that
    share control points get exactly equal ones. Tangent planes are continuous inside a panel

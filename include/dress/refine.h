@@ -72,6 +72,7 @@ static inline bool neighbours_hit(const bool hit[4]) {
    corners of the leaves that are hit are opened (see leaves_open); the numbers in *out are those
    of the rule alone. count.pairs_all is what the paper counts: nodes x 2 detail^2 x edges of the
    garment's colliders. */
-void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule rule, Leaves *leaves, Classification *out);
+void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule rule, Leaves *leaves,
+              Classification *out);
 
 #endif

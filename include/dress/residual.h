@@ -32,10 +32,12 @@ void tester_build(Tester *t, const Vec3 *position, const Edge *edge, int nedges,
 
 /* Counts the crossings with the parts in `parts` (bits 1 << role): *own where the part must not
    show, *other elsewhere. Appends the garment vertices of the former to t->bad. */
-void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other, CrossingCount *count);
+void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other,
+                  CrossingCount *count);
 
 /* Counts the vertices inside any part, and appends those that must not be to t->bad. Once for
    each mesh: a second call adds nothing. */
-void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own, Residual *other);
+void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own,
+                   Residual *other);
 
 #endif

@@ -17,10 +17,12 @@ static inline Vec3 vec_sub(Vec3 a, Vec3 b) { return vec(a.x - b.x, a.y - b.y, a.
 static inline Vec3 vec_scale(Vec3 a, double s) { return vec(a.x * s, a.y * s, a.z * s); }
 /* a + s b */
 static inline Vec3 vec_mad(Vec3 a, Vec3 b, double s) { return vec(a.x + b.x * s, a.y + b.y * s, a.z + b.z * s); }
-static inline Vec3 vec_lerp(Vec3 a, Vec3 b, double t) { return vec(a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t); }
+static inline Vec3 vec_lerp(Vec3 a, Vec3 b, double t) { return vec_mad(a, vec_sub(b, a), t); }
 static inline Vec3 vec_mid(Vec3 a, Vec3 b) { return vec(0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z)); }
 static inline double vec_dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static inline Vec3 vec_cross(Vec3 a, Vec3 b) { return vec(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
+static inline Vec3 vec_cross(Vec3 a, Vec3 b) {
+    return vec(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
 static inline double vec_len(Vec3 a) { return sqrt(vec_dot(a, a)); }
 static inline double vec_dist(Vec3 a, Vec3 b) { return vec_len(vec_sub(a, b)); }
 /* Unit vector; `fallback` where a has no direction. */
@@ -42,7 +44,11 @@ static inline Mat3 mat_mul(Mat3 a, Mat3 b) {
 }
 /* The matrix whose columns are x, y and z. */
 static inline Mat3 mat_columns(Vec3 x, Vec3 y, Vec3 z) { return mat_transpose((Mat3){{x, y, z}}); }
-static inline Vec3 mat_column(Mat3 m, int i) { return i == 0 ? vec(m.r[0].x, m.r[1].x, m.r[2].x) : i == 1 ? vec(m.r[0].y, m.r[1].y, m.r[2].y) : vec(m.r[0].z, m.r[1].z, m.r[2].z); }
+static inline Vec3 mat_column(Mat3 m, int i) {
+    if (i == 0) return vec(m.r[0].x, m.r[1].x, m.r[2].x);
+    if (i == 1) return vec(m.r[0].y, m.r[1].y, m.r[2].y);
+    return vec(m.r[0].z, m.r[1].z, m.r[2].z);
+}
 /* Rotation by `angle` radians about the unit vector `axis`. */
 static inline Mat3 mat_axis_angle(Vec3 axis, double angle) {
     double c = cos(angle), s = sin(angle), k = 1 - c, x = axis.x, y = axis.y, z = axis.z;
@@ -77,11 +83,13 @@ static inline Rigid rigid_inverse(Rigid g) {
 
 static inline Quat quat_from_mat(Mat3 m) {
     double xx = m.r[0].x, yy = m.r[1].y, zz = m.r[2].z, trace = xx + yy + zz;
+    double yz = m.r[2].y - m.r[1].z, zx = m.r[0].z - m.r[2].x, xy = m.r[1].x - m.r[0].y; /* differences */
+    double sxy = m.r[0].y + m.r[1].x, sxz = m.r[0].z + m.r[2].x, syz = m.r[1].z + m.r[2].y; /* sums */
     Quat q;
-    if (trace > 0) q = (Quat){1 + trace, m.r[2].y - m.r[1].z, m.r[0].z - m.r[2].x, m.r[1].x - m.r[0].y};
-    else if (xx > yy && xx > zz) q = (Quat){m.r[2].y - m.r[1].z, 1 + xx - yy - zz, m.r[0].y + m.r[1].x, m.r[0].z + m.r[2].x};
-    else if (yy > zz) q = (Quat){m.r[0].z - m.r[2].x, m.r[0].y + m.r[1].x, 1 + yy - xx - zz, m.r[1].z + m.r[2].y};
-    else q = (Quat){m.r[1].x - m.r[0].y, m.r[0].z + m.r[2].x, m.r[1].z + m.r[2].y, 1 + zz - xx - yy};
+    if (trace > 0) q = (Quat){1 + trace, yz, zx, xy};
+    else if (xx > yy && xx > zz) q = (Quat){yz, 1 + xx - yy - zz, sxy, sxz};
+    else if (yy > zz) q = (Quat){zx, sxy, 1 + yy - xx - zz, syz};
+    else q = (Quat){xy, sxz, syz, 1 + zz - xx - yy};
     double n = 1.0 / sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     return (Quat){q.w * n, q.x * n, q.y * n, q.z * n};
 }
@@ -98,12 +106,15 @@ static inline Quat quat_nlerp(Quat a, Quat b, double t) {
     double n = 1.0 / sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     return (Quat){q.w * n, q.x * n, q.y * n, q.z * n};
 }
-static inline Mat3 mat_nlerp(Mat3 a, Mat3 b, double t) { return mat_from_quat(quat_nlerp(quat_from_mat(a), quat_from_mat(b), t)); }
+static inline Mat3 mat_nlerp(Mat3 a, Mat3 b, double t) {
+    return mat_from_quat(quat_nlerp(quat_from_mat(a), quat_from_mat(b), t));
+}
 
 static inline Box box_empty(void) { return (Box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}; }
 static inline void box_add(Box *b, Vec3 p) {
-    b->low = vec(p.x < b->low.x ? p.x : b->low.x, p.y < b->low.y ? p.y : b->low.y, p.z < b->low.z ? p.z : b->low.z);
-    b->high = vec(p.x > b->high.x ? p.x : b->high.x, p.y > b->high.y ? p.y : b->high.y, p.z > b->high.z ? p.z : b->high.z);
+    Vec3 low = b->low, high = b->high;
+    b->low = vec(p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z);
+    b->high = vec(p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y, p.z > high.z ? p.z : high.z);
 }
 
 static inline double clamp(double x, double low, double high) { return x < low ? low : x > high ? high : x; }

@@ -154,7 +154,9 @@ bool text_real(const Line *line, int i, double *out, Error *e) {
     if (i >= line->count) return text_error(line, i, e, "expected a number, found the end of the line");
     const char *s = line->word[i], *end = s + line->length[i];
     const char *stop = text_number(s, end, out);
-    if (stop != end) return text_error(line, i, e, "expected a number, found '%.*s'", line->length[i] > 40 ? 40 : line->length[i], s);
+    if (stop != end)
+        return text_error(line, i, e, "expected a number, found '%.*s'", line->length[i] > 40 ? 40 : line->length[i],
+                          s);
     if (!(*out >= -1e12 && *out <= 1e12)) return text_error(line, i, e, "number out of range");
     return true;
 }
@@ -162,7 +164,8 @@ bool text_real(const Line *line, int i, double *out, Error *e) {
 bool text_int(const Line *line, int i, int low, int high, int *out, Error *e) {
     double x = 0;
     if (!text_real(line, i, &x, e)) return false;
-    if (x < low || x > high || x != (double)(int)x) return text_error(line, i, e, "expected a whole number from %d to %d", low, high);
+    if (x < low || x > high || x != (double)(int)x)
+        return text_error(line, i, e, "expected a whole number from %d to %d", low, high);
     *out = (int)x;
     return true;
 }

@@ -29,7 +29,8 @@ int thread_count(void) {
 
 static void *work(void *argument) {
     Worker *w = argument;
-    for (int i; (i = atomic_fetch_add(&w->shared->next, 1)) < w->shared->count;) w->shared->run(w->shared->context, i, w->worker);
+    for (int i; (i = atomic_fetch_add(&w->shared->next, 1)) < w->shared->count;)
+        w->shared->run(w->shared->context, i, w->worker);
     return NULL;
 }
 

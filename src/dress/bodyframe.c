@@ -42,7 +42,8 @@ void body_frame_pose(BodyFrame *f, const Pose *pose) {
         f->to_part[p] = rigid_inverse(to_world);
         find_box(f, p);
         crossing_build_edges(&f->edges[p], f->position, b->skin.edge + part->first_edge, part->nedges);
-        crossing_build_triangles(&f->triangles[p], f->position, b->skin.triangle + part->first_triangle, part->ntriangles);
+        crossing_build_triangles(&f->triangles[p], f->position, b->skin.triangle + part->first_triangle,
+                                 part->ntriangles);
     }
     f->seconds = clock_seconds() - start;
 }

@@ -13,10 +13,10 @@ static const double FOLD = 6;
 typedef struct {
     const Mesh *mesh;
     int n;
-    Edge *edge;         /* of the border */
-    Triangle *flat;     /* the same as collapsed triangles, for the tree */
-    int *degree;        /* per vertex: edges of the border there */
-    int (*at)[2];       /* per vertex: the first two of them */
+    Edge *edge;     /* of the border */
+    Triangle *flat; /* the same as collapsed triangles, for the tree */
+    int *degree;    /* per vertex: edges of the border there */
+    int (*at)[2];   /* per vertex: the first two of them */
     BoxTree tree;
 } Rim;
 

@@ -82,7 +82,9 @@ static double leg_radius(const Envelope *env, double s) {
     return fmax(c.side + fabs(c.x), fmax(c.front + c.z, c.back - c.z));
 }
 
-typedef struct { double xx, xz, zz; } Sym2;
+typedef struct {
+    double xx, xz, zz;
+} Sym2;
 
 /* An ellipse u^T C^-1 u = 1 that holds the discs of radius rho round +-delta: the closed form
    that is tight along delta and across it. */

@@ -57,7 +57,8 @@ static void curves_by_bones(Follower *f, const Pose *pose) {
             const FitNode *node = &f->fit->node[curve->node[end]];
             Rigid g = blend(pose, &node->binding);
             Vec3 at = f->curve[c][3 * end] = rigid_apply(g, curve->rest[3 * end]);
-            f->curve[c][1 + end] = curve->middle.n ? shaped_handle(curve, end, pose, at) : rigid_apply(g, curve->rest[1 + end]);
+            f->curve[c][1 + end] =
+                curve->middle.n ? shaped_handle(curve, end, pose, at) : rigid_apply(g, curve->rest[1 + end]);
         }
     }
 }
@@ -163,7 +164,8 @@ static void loft(const Follower *f, const FitPatch *patch, Patch *out) {
     const Vec3 *above = f->curve[panel->curve[r]], *below = f->curve[panel->curve[r + 1]];
     double h = span(f, panel, r);
     for (int k = 0; k < 4; k++)
-        bezier_from_hermite(above[k], f->slope[patch->panel][r][k], below[k], f->slope[patch->panel][r + 1][k], h, out->p[k]);
+        bezier_from_hermite(above[k], f->slope[patch->panel][r][k], below[k], f->slope[patch->panel][r + 1][k], h,
+                            out->p[k]);
 }
 
 static void follow_raw(const Follower *f, const FitPatch *patch, const Pose *pose, Patch *out) {

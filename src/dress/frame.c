@@ -58,8 +58,8 @@ static bool make_groups(Dresser *d, Arena *arena, Error *e) {
     return true;
 }
 
-bool dresser_open(const Garment *garment, const Figure *figure, const Body *body, const DressOptions *options, Arena *arena,
-                  Dresser **out, Error *e) {
+bool dresser_open(const Garment *garment, const Figure *figure, const Body *body, const DressOptions *options,
+                  Arena *arena, Dresser **out, Error *e) {
     Dresser *d = ARENA_NEW(arena, Dresser, 1, e);
     if (!d) return false;
     d->options = *options;
@@ -68,9 +68,10 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
     if (!fit_garment(garment, figure, body, arena, &d->fit, e) ||
         !follow_reserve(&d->follower, &d->fit, figure, body, arena, e) ||
         !lattice_build(&d->fit, detail, depth, arena, &d->lattice, e) ||
-        !classifier_reserve(&d->classifier, &d->lattice, arena, e) || !leaves_reserve(&d->leaves, &d->lattice, arena, e) ||
-        !leaves_reserve(&d->grid, &d->lattice, arena, e) || !sheet_reserve(&d->sheet, &d->lattice, arena, e) ||
-        !push_reserve(&d->push, &d->lattice, arena, e) || !make_groups(d, arena, e))
+        !classifier_reserve(&d->classifier, &d->lattice, arena, e) ||
+        !leaves_reserve(&d->leaves, &d->lattice, arena, e) || !leaves_reserve(&d->grid, &d->lattice, arena, e) ||
+        !sheet_reserve(&d->sheet, &d->lattice, arena, e) || !push_reserve(&d->push, &d->lattice, arena, e) ||
+        !make_groups(d, arena, e))
         return false;
     int triangles = 2 * d->fit.npatches * d->lattice.side * d->lattice.side, places = d->lattice.nplaces;
     d->root = ARENA_NEW(arena, Patch, d->fit.npatches, e);
@@ -94,7 +95,8 @@ static void snap_points(Dresser *d, double unit) {
         d->own[v] = d->lattice.collide[d->sheet.place[v]];
         d->position[v] = vec(mesh_snap(p.x), mesh_snap(p.y), mesh_snap(p.z));
     }
-    tester_build(&d->tester, d->position, d->sheet.edge, d->sheet.nedges, d->sheet.triangle, d->sheet.ntriangles, d->own);
+    tester_build(&d->tester, d->position, d->sheet.edge, d->sheet.nedges, d->sheet.triangle, d->sheet.ntriangles,
+                 d->own);
 }
 
 /* Tests the mesh as it would be written: what crosses the garment's colliders, and, where nothing
@@ -109,8 +111,8 @@ static void test_mesh(Dresser *d, const BodyFrame *body, Residual *own, Residual
 /* One attempt: pushes, tests the mesh, asks for more distance round everything that still crosses
    a collider of its own, until nothing does or a cap. Returns how many vertices are left that
    must not be where they are. */
-static int attempt(Dresser *d, const BodyFrame *body, FrameStats *stats, PushResult *result, Residual *own, Residual *other,
-                   CrossingCount *count) {
+static int attempt(Dresser *d, const BodyFrame *body, FrameStats *stats, PushResult *result, Residual *own,
+                   Residual *other, CrossingCount *count) {
     double start = clock_seconds();
     push_start(&d->push, d->root, &d->leaves, &d->sheet);
     push_solve(&d->push, body, &d->sheet, result);
@@ -130,7 +132,8 @@ static int attempt(Dresser *d, const BodyFrame *body, FrameStats *stats, PushRes
 
 /* A second attempt, from the global shape alone, where the first leaves something; the better
    one stays. */
-static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Residual *own, Residual *other, CrossingCount *count) {
+static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Residual *own, Residual *other,
+                          CrossingCount *count) {
     PushResult result = {0};
     int left = attempt(d, body, stats, &result, own, other, count);
     if (left) {
@@ -150,8 +153,8 @@ static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, 
 }
 
 /* The parts that the garment does not collide with, and what lies inside any. */
-static void final_test(Dresser *d, const BodyFrame *body, const Vec3 *position, int nvertices, FrameStats *stats, Residual *own,
-                       Residual *other, CrossingCount *count) {
+static void final_test(Dresser *d, const BodyFrame *body, const Vec3 *position, int nvertices, FrameStats *stats,
+                       Residual *own, Residual *other, CrossingCount *count) {
     double start = clock_seconds();
     tester_cross(&d->tester, body, ~d->fit.collide, own, other, count);
     tester_inside(&d->tester, body, position, nvertices, own, other);
@@ -185,9 +188,15 @@ static void fill_mesh(Dresser *d, Mesh *mesh) {
         d->u[v] = (double)(owner / n % n) / d->lattice.side;
         d->w[v] = (double)(owner % n) / d->lattice.side;
     }
-    *mesh = (Mesh){.nvertices = s->nvertices, .ntriangles = s->ntriangles, .nedges = s->nedges,
-                   .position = d->position, .normal = d->normal, .u = d->u, .w = d->w,
-                   .triangle = s->triangle, .edge = s->edge};
+    *mesh = (Mesh){.nvertices = s->nvertices,
+                   .ntriangles = s->ntriangles,
+                   .nedges = s->nedges,
+                   .position = d->position,
+                   .normal = d->normal,
+                   .u = d->u,
+                   .w = d->w,
+                   .triangle = s->triangle,
+                   .edge = s->edge};
     set_groups(d, s->first_of_patch, mesh);
 }
 
@@ -214,7 +223,8 @@ static void split_by_rule(Dresser *d, const BodyFrame *body, FrameStats *stats, 
 }
 
 /* Nothing but the global deformation, tested like all. */
-static void rest_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Residual *own, Residual *other, CrossingCount *count) {
+static void rest_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Residual *own, Residual *other,
+                          CrossingCount *count) {
     double start = clock_seconds();
     push_start(&d->push, d->root, &d->leaves, &d->sheet);
     push_rest(&d->push, &d->sheet);
@@ -291,5 +301,6 @@ int dresser_leaves(const Dresser *d, LeafPatch *out, int capacity) {
 int dresser_borders(const Dresser *d, Edge *out) { return sheet_borders(&d->sheet, &d->leaves, out); }
 
 DresserInfo dresser_info(const Dresser *d) {
-    return (DresserInfo){.patches = d->fit.npatches, .panels = d->ngroups, .openings = d->fit.nopenings, .own_parts = d->fit.collide};
+    return (DresserInfo){
+        .patches = d->fit.npatches, .panels = d->ngroups, .openings = d->fit.nopenings, .own_parts = d->fit.collide};
 }

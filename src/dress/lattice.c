@@ -13,7 +13,9 @@ static void side_place(const Lattice *l, Side side, int k, int *i, int *j) {
     *j = side == SIDE_TOP ? 0 : side == SIDE_BOTTOM ? l->side : k;
 }
 
-static int *slot(const Lattice *l, int patch, int i, int j) { return &l->place[(patch * (l->side + 1) + i) * (l->side + 1) + j]; }
+static int *slot(const Lattice *l, int patch, int i, int j) {
+    return &l->place[(patch * (l->side + 1) + i) * (l->side + 1) + j];
+}
 
 /* The place of a side's step that an earlier side with the same names has numbered, or -1. */
 static bool find_twin(const Lattice *l, int patch, Side side, int *twin_patch, Side *twin, bool *reversed) {
@@ -111,7 +113,8 @@ static void list_cells(const Lattice *l, LatticeLevel *level, int cells) {
         for (int p = 0; p < l->fit->npatches; p++)
             for (int a = 0; a <= cells; a++)
                 for (int b = 0; b <= cells; b++) {
-                    int v = level->vertex[(p * (cells + 1) + a) * (cells + 1) + b], n = cells_round(cells, p, a, b, round);
+                    int v = level->vertex[(p * (cells + 1) + a) * (cells + 1) + b],
+                        n = cells_round(cells, p, a, b, round);
                     if (pass == 1) memcpy(&level->cell[level->first_cell[v]], round, (size_t)n * sizeof *round);
                     level->first_cell[v] += n;
                 }
@@ -139,7 +142,8 @@ static bool build_level(Lattice *l, int number, int *of_place, Arena *arena, Err
     level->pinned = ARENA_NEW(arena, bool, most, e);
     level->weight = ARENA_NEW(arena, double, stride + 1, e);
     level->slope = ARENA_NEW(arena, double, stride + 1, e);
-    if (!level->vertex || !level->place || !level->first_cell || !level->cell || !level->pinned || !level->weight || !level->slope)
+    if (!level->vertex || !level->place || !level->first_cell || !level->cell || !level->pinned || !level->weight ||
+        !level->slope)
         return false;
     for (int k = 0; k <= stride; k++) {
         double t = (double)k / stride;
@@ -172,7 +176,8 @@ bool lattice_build(const Fit *fit, int detail, int depth, Arena *arena, Lattice 
     out->basis = arena_array(arena, (size_t)n, sizeof *out->basis, e);
     out->basis_slope = arena_array(arena, (size_t)n, sizeof *out->basis_slope, e);
     int *scratch = ARENA_NEW(arena, int, most > fit->npoints ? most : fit->npoints, e);
-    if (!out->place || !out->owner || !out->collide || !out->pinned || !out->basis || !out->basis_slope || !scratch) return false;
+    if (!out->place || !out->owner || !out->collide || !out->pinned || !out->basis || !out->basis_slope || !scratch)
+        return false;
     number_places(out, scratch);
     mark_places(out);
     for (int level = 0; level <= depth; level++)
@@ -181,8 +186,8 @@ bool lattice_build(const Fit *fit, int detail, int depth, Arena *arena, Lattice 
     return true;
 }
 
-void lattice_weights(const Lattice *l, int number, int patch, int i, int j, int vertex[4], double weight[4], double du[4],
-                     double dw[4]) {
+void lattice_weights(const Lattice *l, int number, int patch, int i, int j, int vertex[4], double weight[4],
+                     double du[4], double dw[4]) {
     const LatticeLevel *level = &l->level[number];
     int cells = 1 << number, n = cells + 1, stride = l->side >> number;
     int a = i / stride, b = j / stride;

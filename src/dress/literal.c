@@ -12,8 +12,8 @@
 #include "geometry/predicate.h"
 
 enum { STEPS_MAX = 40 };
-static const double STEP = 0.005;  /* metres on a figure of 1.70 m */
-static const double STILL = 1e-9;  /* metres: a motion below this has no direction */
+static const double STEP = 0.005; /* metres on a figure of 1.70 m */
+static const double STILL = 1e-9; /* metres: a motion below this has no direction */
 
 bool literal_reserve(Literal *l, const Lattice *lattice, const Body *body, Arena *arena, Error *e) {
     int n = lattice->detail, leaves = lattice->fit->npatches << (2 * lattice->depth), most = 0;
@@ -96,7 +96,8 @@ static void make_children(const LiteralLeaf *parent, LiteralLeaf child[4]) {
     Patch quarter[4];
     bezier_split(&parent->patch, quarter);
     for (int k = 0; k < 4; k++)
-        child[k] = (LiteralLeaf){.patch = quarter[k], .level = parent->level + 1,
+        child[k] = (LiteralLeaf){.patch = quarter[k],
+                                 .level = parent->level + 1,
                                  .cell = {parent->cell.patch, 2 * parent->cell.a + k / 2, 2 * parent->cell.b + k % 2}};
 }
 

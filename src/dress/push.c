@@ -12,18 +12,18 @@
 
 /* Caps and tolerances, metres on a figure of 1.70 m where they are lengths. */
 enum { SWEEPS_MAX = 30, STALL = 5, ROUNDS_MAX = 3, SETTLES_MAX = 4 };
-static const double REACH = 0.04;       /* vertices farther from the body are not swept */
-static const double SLACK = 0.1;        /* share of the clearance that may be missing after sweeps */
-static const double LIPSCHITZ = 0.8;    /* distances are of first order: trust this share of a slack */
-static const double AGREEMENT = 0.7;    /* cosine: an analytic normal farther off its facets is not used */
-static const double FADE = 0.8;         /* of the carried displacement, in 1/30 s */
-static const double FELT = 0.0002;      /* a carried displacement below this is dropped */
-static const double PIN_GIVES = 0.2;    /* a pinned level vertex moves this share of what a free one would */
-static const double NORM_MIN = 0.1;     /* a sample that level vertices hardly move must not fling them */
-static const double BUDGET = 0.02;      /* a sample may issue twice its first violation and this */
-static const double HEADWAY = 0.6;      /* pushes that get this share of their length nowhere are a pinch */
-static const double RAISE_MAX = 0.02;   /* most extra clearance */
-static const double OFFSET_MAX = 0.03;  /* of a single vertex: more would be a spike */
+static const double REACH = 0.04;      /* vertices farther from the body are not swept */
+static const double SLACK = 0.1;       /* share of the clearance that may be missing after sweeps */
+static const double LIPSCHITZ = 0.8;   /* distances are of first order: trust this share of a slack */
+static const double AGREEMENT = 0.7;   /* cosine: an analytic normal farther off its facets is not used */
+static const double FADE = 0.8;        /* of the carried displacement, in 1/30 s */
+static const double FELT = 0.0002;     /* a carried displacement below this is dropped */
+static const double PIN_GIVES = 0.2;   /* a pinned level vertex moves this share of what a free one would */
+static const double NORM_MIN = 0.1;    /* a sample that level vertices hardly move must not fling them */
+static const double BUDGET = 0.02;     /* a sample may issue twice its first violation and this */
+static const double HEADWAY = 0.6;     /* pushes that get this share of their length nowhere are a pinch */
+static const double RAISE_MAX = 0.02;  /* most extra clearance */
+static const double OFFSET_MAX = 0.03; /* of a single vertex: more would be a spike */
 
 bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     *p = (Push){.lattice = lattice, .scale = lattice->fit->height / 1.70, .pelvis = mat_identity()};
@@ -260,15 +260,15 @@ static double sweep_all(Push *p, const BodyFrame *body, const Sheet *sheet, Push
 }
 
 /* Single vertices that the sweeps left too near are moved by their own offset. */
-static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, unsigned near,
-                          bool *capped) {
+static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, unsigned near, bool *capped) {
     Vec3 *o = &p->offset[sheet->place[vertex]];
     for (int step = 0; step < SETTLES_MAX; step++) {
         bool moved = false;
         for (int part = 0; near >> part; part++) {
             if (!(near >> part & 1)) continue;
             Vec3 n;
-            double depth = p->clearance[vertex] - body_frame_distance(body, part, p->point[vertex], p->clearance[vertex], &n);
+            double depth =
+                p->clearance[vertex] - body_frame_distance(body, part, p->point[vertex], p->clearance[vertex], &n);
             if (depth <= SLACK * p->clearance[vertex]) continue;
             Vec3 longer = limit(vec_mad(*o, n, depth), OFFSET_MAX * p->scale, capped);
             p->point[vertex] = vec_add(p->point[vertex], vec_sub(longer, *o));
@@ -300,7 +300,8 @@ void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *
         if (moved < REACH * p->scale) break; /* nobody can have come near who was not */
     }
     find_points(p, sheet);
-    for (int k = 0; k < p->nsamples; k++) settle_vertex(p, body, sheet, p->sample[k].vertex, p->sample[k].near, &result->capped);
+    for (int k = 0; k < p->nsamples; k++)
+        settle_vertex(p, body, sheet, p->sample[k].vertex, p->sample[k].near, &result->capped);
 }
 
 bool push_raise(Push *p, int vertex, double by) {
@@ -314,7 +315,8 @@ bool push_raise(Push *p, int vertex, double by) {
 void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
     for (int k = 0; k < p->nraised; k++) {
         int v = p->raised[k];
-        settle_vertex(p, body, sheet, v, parts_near(p, body, sheet->place[v], p->point[v], p->clearance[v]), &result->capped);
+        settle_vertex(p, body, sheet, v, parts_near(p, body, sheet->place[v], p->point[v], p->clearance[v]),
+                      &result->capped);
     }
 }
 
@@ -340,7 +342,8 @@ void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, Push
     result->active = result->pinched = 0;
     result->displacement = 0;
     for (int k = 0; k < p->start[LATTICE_LEVELS]; k++) result->active += !is_zero(p->displacement[k]);
-    for (int v = 0; v < sheet->nvertices; v++) result->displacement = fmax(result->displacement, vec_dist(p->point[v], p->global[v]));
+    for (int v = 0; v < sheet->nvertices; v++)
+        result->displacement = fmax(result->displacement, vec_dist(p->point[v], p->global[v]));
     for (int k = 0; k < p->nsamples; k++) {
         const PushSample *s = &p->sample[k];
         if (s->budget >= 0 && parts_near(p, body, sheet->place[s->vertex], p->point[s->vertex], 0)) result->pinched++;
@@ -380,7 +383,8 @@ void push_normals(const Push *p, const Patch *root, const Sheet *sheet, const Ve
         for (int c = 0; c < 3; c++) normal[v[c]] = vec_add(normal[v[c]], n);
     }
     for (int v = 0; v < sheet->nvertices; v++) {
-        Vec3 faces = vec_unit_or(normal[v], vec(0, 1, 0)), smooth = vec_unit_or(analytic_normal(p, root, levels, sheet->place[v]), faces);
+        Vec3 faces = vec_unit_or(normal[v], vec(0, 1, 0)),
+             smooth = vec_unit_or(analytic_normal(p, root, levels, sheet->place[v]), faces);
         normal[v] = vec_dot(smooth, faces) > AGREEMENT ? smooth : faces;
     }
 }

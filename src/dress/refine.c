@@ -71,7 +71,8 @@ static void cell_points(const Lattice *l, const Patch *root, LatticeCell cell, i
         }
         for (int i = 0; i <= n; i++) {
             const double *bu = l->basis[cell.a * n * stride + i * stride];
-            out[i * (n + 1) + j] = vec_mad(vec_mad(vec_mad(vec_scale(row[0], bu[0]), row[1], bu[1]), row[2], bu[2]), row[3], bu[3]);
+            out[i * (n + 1) + j] =
+                vec_mad(vec_mad(vec_mad(vec_scale(row[0], bu[0]), row[1], bu[1]), row[2], bu[2]), row[3], bu[3]);
         }
     }
 }
@@ -94,7 +95,8 @@ static bool any_inside(const BodyFrame *body, unsigned parts, const Vec3 *points
 }
 
 /* Tests `ncells` cells of one level: fills c->hit. */
-static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, int level, int ncells, Classification *out) {
+static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, int level, int ncells,
+                       Classification *out) {
     const Lattice *l = c->lattice;
     int n = l->detail, npoints = (n + 1) * (n + 1), ntriangles = 2 * n * n;
     for (int k = 0; k < ncells; k++) {
@@ -109,8 +111,8 @@ static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, 
     for (int p = 0; p < body->body->nparts; p++) {
         if (!(l->fit->collide & part_bit(body, p))) continue;
         int before = out->count.hits;
-        int found = (c->plain ? crossing_find_plainly : crossing_find)(&body->edges[p], &c->set, c->found, c->found_capacity,
-                                                                       &out->count);
+        int found = (c->plain ? crossing_find_plainly : crossing_find)(&body->edges[p], &c->set, c->found,
+                                                                       c->found_capacity, &out->count);
         if (found < out->count.hits - before) out->capped = true;
         for (int k = 0; k < found; k++) {
             int cell = c->found[k].triangle / ntriangles;
@@ -151,7 +153,8 @@ static int all_cells(const Lattice *l, int level, LatticeCell *out) {
     return n;
 }
 
-void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule rule, Leaves *leaves, Classification *out) {
+void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule rule, Leaves *leaves,
+              Classification *out) {
     const Lattice *l = c->lattice;
     *out = (Classification){0};
     int level = rule == SPLIT_UNIFORM ? l->depth : 0, ncells = all_cells(l, level, c->cell);

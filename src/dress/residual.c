@@ -8,7 +8,8 @@ bool tester_reserve(Tester *t, int edges, int triangles, Arena *arena, Error *e)
     t->capacity = FOUND_MAX;
     t->found = ARENA_NEW(arena, Crossing, t->capacity, e);
     t->bad = ARENA_NEW(arena, int, 3 * t->capacity, e);
-    return t->found && t->bad && crossing_reserve(&t->edges, edges, arena, e) && crossing_reserve(&t->triangles, triangles, arena, e);
+    return t->found && t->bad && crossing_reserve(&t->edges, edges, arena, e) &&
+           crossing_reserve(&t->triangles, triangles, arena, e);
 }
 
 void tester_build(Tester *t, const Vec3 *position, const Edge *edge, int nedges, const Triangle *triangle,
@@ -40,7 +41,8 @@ static void sort_found(Tester *t, unsigned bit, bool is_triangle, int listed, in
     *own += hits - listed;
 }
 
-void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other, CrossingCount *count) {
+void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other,
+                  CrossingCount *count) {
     for (int p = 0; p < body->body->nparts; p++) {
         unsigned bit = part_bit(body, p);
         if (!(parts & bit)) continue;
@@ -52,7 +54,8 @@ void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *ow
     }
 }
 
-void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own, Residual *other) {
+void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own,
+                   Residual *other) {
     if (t->inside_known) return;
     t->inside_known = true;
     double to_metres = 1 / body->unit;

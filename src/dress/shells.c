@@ -21,9 +21,9 @@ typedef struct {
     Arena *arena;
     Topology topology;
     Sets triangles;
-    Triangle *turned;    /* the triangles, turned alike in each shell */
-    int *shell;          /* of each triangle; -1: not wanted */
-    Vec3 *position;      /* the mesh's vertices, and the middles of lids behind them */
+    Triangle *turned; /* the triangles, turned alike in each shell */
+    int *shell;       /* of each triangle; -1: not wanted */
+    Vec3 *position;   /* the mesh's vertices, and the middles of lids behind them */
     Triangle *lid;
     int *lid_shell, nlids;
 } Maker;
@@ -34,7 +34,7 @@ static void join_triangles(Maker *m) {
         n = topology_run(t, i);
         for (int k = 1; k < n; k++)
             sets_join(&m->triangles, t->side[i].triangle, t->side[i + k].triangle,
-                       n == 2 && t->side[i].way == t->side[i + 1].way);
+                      n == 2 && t->side[i].way == t->side[i + 1].way);
     }
 }
 

@@ -22,7 +22,9 @@ bool solid_make(const Mesh *body, const bool *wanted, Arena *arena, Solid *out, 
     return shells_find(body, take, arena, &out->shells, e);
 }
 
-typedef struct { Vec3 v[3]; } Corners;
+typedef struct {
+    Vec3 v[3];
+} Corners;
 
 static Corners corners(const Mesh *m, int t) {
     const int *v = m->triangle[t].v;
@@ -95,8 +97,8 @@ static bool find_cracks(Check *c, double width, Arena *arena, Error *e) {
     return true;
 }
 
-bool verify_meshes(const Solid *body, const Mesh *garment, double crack, Findings findings, Arena *arena,
-                   Verdict *out, Error *e) {
+bool verify_meshes(const Solid *body, const Mesh *garment, double crack, Findings findings, Arena *arena, Verdict *out,
+                   Error *e) {
     *out = (Verdict){.worst = -1};
     Check c = {body, garment, findings, ARENA_NEW(arena, int, body->mesh->ngroups, e), out};
     bool *used = ARENA_NEW(arena, bool, garment->nvertices, e);

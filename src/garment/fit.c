@@ -2,16 +2,20 @@
    for each thing that can be shared (a curve's points, the points of a column between two
    nodes, the sewn side of a raw patch), so neighbouring patches share an edge because they use
    the same names, never because two positions happen to agree. */
-#include "garment/fit_parts.h"
+#include "garment/fit.h"
 
 #include <string.h>
+
+#include "garment/fit_parts.h"
 
 /* Handles of arcs: a quarter of an ellipse, and half of one, as a single cubic. The half is the
    one that reaches the full depth in its middle (METHOD section 6 of the design notes). */
 static const double QUARTER = 0.5522847498307936, HALF = 4.0 / 3.0;
 
 /* A ring in space: its centre and its half axes, front and back apart. */
-typedef struct { Vec3 centre, side, front, back; } Frame;
+typedef struct {
+    Vec3 centre, side, front, back;
+} Frame;
 
 typedef struct {
     const Garment *g;
@@ -22,7 +26,7 @@ typedef struct {
     int node_of[GARMENT_RINGS_MAX][STATION_COUNT];
     Frame ring[GARMENT_RINGS_MAX];
     Vec3 measure[GARMENT_RINGS_MAX]; /* what the file's lengths are multiplied with at a ring */
-    int private_names; /* given to points that nobody shares: -1, -2, ... */
+    int private_names;               /* given to points that nobody shares: -1, -2, ... */
 } Tailor;
 
 static bool is_leg(Role r) { return r >= ROLE_LEFT_THIGH; }
@@ -72,8 +76,9 @@ static bool place_ring(Tailor *t, int r, Error *e) {
     if (x.x < 0) x = vec_scale(x, -1);
     if (z.z < 0) z = vec_scale(z, -1);
     double least = 0;
-    if (t->g->follow == FOLLOW_ENVELOPE && is_leg(ring->part)) {
-        s = round_both_legs(part, part_of(t->body, other_leg(ring->part)), ring->at, &centre);
+    const BodyPart *twin = is_leg(ring->part) ? part_of(t->body, other_leg(ring->part)) : NULL;
+    if (t->g->follow == FOLLOW_ENVELOPE && twin) {
+        s = round_both_legs(part, twin, ring->at, &centre);
         least = s.side + 0.015 * scale; /* wide hips widen a skirt of fixed size */
         x = vec(1, 0, 0);
         z = vec(0, 0, 1);
@@ -207,7 +212,8 @@ static void find_turns(Fit *f) {
             for (int k = 0; k < f->ncurves; k++) {
                 const FitCurve *other = &f->curve[k];
                 bool meets = other->node[0] == f->curve[c].node[end] || other->node[1] == f->curve[c].node[end];
-                if (k != c && meets && other->ring == f->curve[c].ring && other->middle.n) turn = mean_binding(turn, other->middle);
+                if (k != c && meets && other->ring == f->curve[c].ring && other->middle.n)
+                    turn = mean_binding(turn, other->middle);
             }
             f->curve[c].turn[end] = mean_binding(turn, f->node[f->curve[c].node[end]].binding);
         }
@@ -242,7 +248,8 @@ static bool make_panels(Tailor *t, Error *e) {
     find_turns(f);
     for (int p = 0; p < f->npanels; p++)
         for (int k = 0; k + 1 < f->panel[p].nrows; k++)
-            f->panel[p].height[k] = row_height(f, f->curve[f->panel[p].curve[k]].ring, f->curve[f->panel[p].curve[k + 1]].ring);
+            f->panel[p].height[k] =
+                row_height(f, f->curve[f->panel[p].curve[k]].ring, f->curve[f->panel[p].curve[k + 1]].ring);
     return true;
 }
 
@@ -312,7 +319,8 @@ static void make_panel_patch(Tailor *t, int p, int k) {
         patch->point[4 * i] = curve_name(f, above, i);
         patch->point[4 * i + 3] = curve_name(f, below, i);
         for (int j = 1; j < 3; j++)
-            patch->point[4 * i + j] = i == 0 || i == 3 ? column_name(f, a->node[i == 3], b->node[i == 3], j) : --t->private_names;
+            patch->point[4 * i + j] =
+                i == 0 || i == 3 ? column_name(f, a->node[i == 3], b->node[i == 3], j) : --t->private_names;
     }
 }
 

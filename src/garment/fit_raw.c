@@ -56,7 +56,8 @@ static bool make_patches(Fit *f, const Figure *figure, int *private_names, Arena
         inside.y = vec_mid(q[0], q[3]).y;
         patch->flip = fit_outwardness(q, inside) < 0;
         for (int i = 0; i < g->ncollides; i++)
-            if (g->collide[i].from_ring < 0 && g->collide[i].piece == g->npanels + k) patch->collide |= g->collide[i].parts;
+            if (g->collide[i].from_ring < 0 && g->collide[i].piece == g->npanels + k)
+                patch->collide |= g->collide[i].parts;
         for (int i = 0; i < g->npins; i++)
             if (g->pin[i].ring < 0 && g->pin[i].piece == g->npanels + k) patch->pinned |= 1u << g->pin[i].side;
     }
