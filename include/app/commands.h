@@ -6,6 +6,7 @@
 #include "app/settings.h"
 
 ErrorKind cmd_dress(const Settings *settings, Error *e);
+ErrorKind cmd_compare(const Settings *settings, Error *e);
 ErrorKind cmd_inspect(const Settings *settings, Error *e);
 ErrorKind cmd_walk(const Settings *settings, Error *e);
 ErrorKind cmd_verify(const Settings *settings, Error *e);

@@ -7,7 +7,9 @@
 #include "files/drc.h"
 #include "motion/gait.h"
 
-typedef enum { COMMAND_DRESS = 1, COMMAND_INSPECT = 2, COMMAND_WALK = 4, COMMAND_VERIFY = 8, COMMAND_ALL = 15 } CommandBit;
+typedef enum {
+    COMMAND_DRESS = 1, COMMAND_INSPECT = 2, COMMAND_WALK = 4, COMMAND_VERIFY = 8, COMMAND_COMPARE = 16, COMMAND_ALL = 31
+} CommandBit;
 
 /* Frames first, first + step, ... up to last, counted from 1. 0: from the first, to the last,
    every one. */
@@ -16,6 +18,8 @@ typedef struct { int first, last, step; } FrameSpan;
 typedef struct { int count; const char **item; } TextList;
 
 typedef enum { FORMAT_OBJ = 1, FORMAT_DRC = 2, FORMAT_NONE = 4 } FormatBit;
+/* What is compared: global, no local deformation; paper, the paper's to the letter. */
+typedef enum { COMPARE_UNIFORM, COMPARE_ADAPTIVE, COMPARE_GLOBAL, COMPARE_PAPER, COMPARE_METHODS } CompareMethod;
 typedef enum { PROGRESS_AUTO, PROGRESS_ALWAYS, PROGRESS_NEVER } ProgressMode;
 
 /* Filled by options_parse, const for everybody else. Zero is the default everywhere, but for
@@ -50,6 +54,8 @@ typedef struct {
     bool strict, quiet, verbose;
     int progress;               /* ProgressMode */
 
+    unsigned methods;           /* compare: bits 1 << CompareMethod; uniform and adaptive are always run */
+    int repeat;                 /* compare: runs that are timed; 0 = 3 */
     bool joints;                /* inspect */
     bool list;                  /* verify */
     const char *parts;          /* verify: groups of the body, separated by commas; NULL = all */

@@ -13,6 +13,10 @@ static const Command commands[] = {
      .operands = "[OPTION]... MOTION... -g GARMENT... -o DIR",
      .example = "kitsuke dress motions/paper-walk.bvh -g garments/skirt.garment -o out\n"
                 "kitsuke dress mocap/ -g garments/skirt.garment -o out --format drc --rate 30"},
+    {.name = "compare", .bit = COMMAND_COMPARE, .run = cmd_compare,
+     .summary = "count and time uniform against adaptive subdivision",
+     .operands = "[OPTION]... MOTION... -g GARMENT... -o DIR",
+     .example = "kitsuke compare motions/paper-walk.bvh -g garments/paper-skirt.garment -o out"},
     {.name = "inspect", .bit = COMMAND_INSPECT, .run = cmd_inspect,
      .summary = "tell what is in a motion, garment or body file",
      .operands = "[OPTION]... FILE...",

@@ -18,6 +18,9 @@ static const Choice positions[] = {
     {"guess", POSITION_GUESS}, {"add", POSITION_ADD}, {"replace", POSITION_REPLACE}, {NULL, 0}};
 static const Choice axes[] = {{"x", 'x'}, {"y", 'y'}, {"z", 'z'}, {"-x", 'X'}, {"-y", 'Y'}, {"-z", 'Z'}, {NULL, 0}};
 static const Choice formats[] = {{"obj", FORMAT_OBJ}, {"drc", FORMAT_DRC}, {"none", FORMAT_NONE}, {NULL, 0}};
+static const Choice compared[] = {
+    {"uniform", 1 << COMPARE_UNIFORM}, {"adaptive", 1 << COMPARE_ADAPTIVE}, {"global", 1 << COMPARE_GLOBAL},
+    {"paper", 1 << COMPARE_PAPER}, {NULL, 0}};
 static const Choice presets[] = {{"normal", 0}, {"paper", 0}, {"brisk", 0}, {"squat", 0}, {"turn", 0}, {NULL, 0}};
 static const Choice progress_modes[] = {
     {"auto", PROGRESS_AUTO}, {"always", PROGRESS_ALWAYS}, {"never", PROGRESS_NEVER}, {NULL, 0}};
@@ -29,12 +32,13 @@ enum { UNITS = sizeof units / sizeof units[0] };
 
 #define FIELD(name) .field = offsetof(Settings, name)
 #define RANGE(least, most) .low = (least), .high = (most)
-#define MOVES (COMMAND_DRESS | COMMAND_INSPECT) /* both open motions */
+#define BODIES (COMMAND_DRESS | COMMAND_COMPARE) /* what dresses bodies */
+#define MOVES (BODIES | COMMAND_INSPECT)          /* what opens motions */
 
 const Option settings_table[] = {
     {"motion", 0, KIND_LIST, FIELD(inputs), "FILE", "Motion", MOVES,
      "motion or folder of motions; on a command line the name alone will do"},
-    {"files-from", 0, KIND_TEXT, FIELD(files_from), "FILE", "Motion", COMMAND_DRESS,
+    {"files-from", 0, KIND_TEXT, FIELD(files_from), "FILE", "Motion", BODIES,
      "list of more motions, one in a line, or separated by NUL; -: standard input"},
     {"asf", 0, KIND_TEXT, FIELD(asf), "FILE", "Motion", MOVES,
      "skeleton of AMC motions", .fallback = "the .asf file beside the motion"},
@@ -42,7 +46,7 @@ const Option settings_table[] = {
      "which joint is which bone, as lines 'role = joint'", .fallback = "found by names and shape"},
     {"frames", 0, KIND_SPAN, FIELD(frames), "A:B:STEP", "Motion", MOVES,
      "first and last frame, counted from 1, and step; each part may be left out", .fallback = "all"},
-    {"rate", 0, KIND_REAL, FIELD(rate), "HZ", "Motion", COMMAND_DRESS,
+    {"rate", 0, KIND_REAL, FIELD(rate), "HZ", "Motion", BODIES,
      "resample to so many frames a second; --frames then counts these", .fallback = "the motion's own",
      RANGE(0.001, 100000)},
     {"fps", 0, KIND_REAL, FIELD(fps), "HZ", "Motion", MOVES,
@@ -57,11 +61,11 @@ const Option settings_table[] = {
     {"position", 0, KIND_CHOICE, FIELD(position), "RULE", "Motion", MOVES,
      "what position channels do to a joint's OFFSET", .fallback = "guess", .choices = positions},
 
-    {"garment", 'g', KIND_LIST, FIELD(garments), "FILE", "Garments and body", COMMAND_DRESS,
+    {"garment", 'g', KIND_LIST, FIELD(garments), "FILE", "Garments and body", BODIES,
      "garment to put on; repeat it for several"},
-    {"body", 0, KIND_TEXT, FIELD(body), "FILE", "Garments and body", COMMAND_DRESS,
+    {"body", 0, KIND_TEXT, FIELD(body), "FILE", "Garments and body", BODIES,
      "body to dress", .fallback = "a well-proportioned adult"},
-    {"body-detail", 0, KIND_INT, FIELD(body_detail), "N", "Garments and body", COMMAND_DRESS,
+    {"body-detail", 0, KIND_INT, FIELD(body_detail), "N", "Garments and body", BODIES,
      "facets round each section of the body", .fallback = "16", RANGE(8, 64), .step = 4},
 
     {"method", 0, KIND_CHOICE, FIELD(method), "NAME", "Method", COMMAND_DRESS,
@@ -70,14 +74,24 @@ const Option settings_table[] = {
     {"split", 0, KIND_CHOICE, FIELD(split), "RULE", "Method", COMMAND_DRESS,
      "which patches are split: those that meet the body, all, or none", .fallback = "adaptive",
      .choices = split_rules},
-    {"depth", 0, KIND_INT, FIELD(depth), "N", "Method", COMMAND_DRESS,
+    {"depth", 0, KIND_INT, FIELD(depth), "N", "Method", BODIES,
      "levels of splitting", .fallback = "2", RANGE(1, 3)},
-    {"detail", 0, KIND_INT, FIELD(detail), "N", "Method", COMMAND_DRESS,
+    {"detail", 0, KIND_INT, FIELD(detail), "N", "Method", BODIES,
      "facets along each side of a patch", .fallback = "the garment's, or 8", RANGE(1, 64)},
     {"topology", 0, KIND_CHOICE, FIELD(fixed), "KIND", "Method", COMMAND_DRESS,
      "adaptive: facets follow the splitting; fixed: the same triangles in every frame", .fallback = "adaptive",
      .choices = topologies},
 
+    {"methods", 0, KIND_SET, FIELD(methods), "LIST", "Method", COMMAND_COMPARE,
+     "what to compare, separated by commas; uniform and adaptive always are", .fallback = "uniform,adaptive",
+     .choices = compared},
+    {"repeat", 0, KIND_INT, FIELD(repeat), "N", "Method", COMMAND_COMPARE,
+     "runs that are timed; the fastest counts", .fallback = "3", RANGE(1, 16)},
+
+    {"output", 'o', KIND_TEXT, FIELD(output), "DIR", "Output", COMMAND_COMPARE,
+     "folder for compare.csv, tests.svg and times.svg; DIR/MOTION/GARMENT for each of several pairs"},
+    {"force", 'f', KIND_FLAG, FIELD(force), NULL, "Output", COMMAND_COMPARE,
+     "replace what an earlier run wrote", .manner = true},
     {"output", 'o', KIND_TEXT, FIELD(output), "DIR", "Output", COMMAND_DRESS,
      "folder for everything that is written; made if missing"},
     {"format", 0, KIND_SET, FIELD(formats), "LIST", "Output", COMMAND_DRESS,
@@ -86,7 +100,7 @@ const Option settings_table[] = {
      "length unit of the written meshes", .fallback = "m", RANGE(1e-6, 1e6)},
     {"no-body", 0, KIND_FLAG, FIELD(no_body), NULL, "Output", COMMAND_DRESS,
      "write no meshes of the body"},
-    {"no-times", 0, KIND_FLAG, FIELD(no_times), NULL, "Output", COMMAND_DRESS,
+    {"no-times", 0, KIND_FLAG, FIELD(no_times), NULL, "Output", BODIES,
      "leave the columns of seconds out of the statistics"},
     {"force", 'f', KIND_FLAG, FIELD(force), NULL, "Output", COMMAND_DRESS,
      "replace motion folders that are there already", .manner = true},
@@ -148,11 +162,11 @@ const Option settings_table[] = {
      "read options from lines 'name value'; what the command line says wins", .manner = true},
     {"print-job", 0, KIND_FLAG, FIELD(print_job), NULL, "Run", COMMAND_ALL,
      "print the job file that these words amount to, and do nothing", .manner = true},
-    {"quiet", 'q', KIND_FLAG, FIELD(quiet), NULL, "Messages", COMMAND_DRESS | COMMAND_VERIFY,
+    {"quiet", 'q', KIND_FLAG, FIELD(quiet), NULL, "Messages", BODIES | COMMAND_VERIFY,
      "errors only", .manner = true},
     {"verbose", 'v', KIND_FLAG, FIELD(verbose), NULL, "Messages", COMMAND_DRESS,
      "more about each motion, and where the time went", .manner = true},
-    {"progress", 0, KIND_CHOICE, FIELD(progress), "WHEN", "Messages", COMMAND_DRESS,
+    {"progress", 0, KIND_CHOICE, FIELD(progress), "WHEN", "Messages", BODIES,
      "a line that tells how far it is; auto: on a terminal", .fallback = "auto", .choices = progress_modes,
      .manner = true},
     {"help", 'h', KIND_FLAG, FIELD(help), NULL, "Messages", COMMAND_ALL,

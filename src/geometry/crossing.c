@@ -272,7 +272,9 @@ int crossing_find(const CrossingSet *edges, const CrossingSet *triangles, Crossi
     return search(&s);
 }
 
-/* Sixteen segments against a plane, triangle by triangle; what reaches it is decided. */
+/* Each triangle's plane against sixteen segments at a time, all of them. The few that reach the plane
+   have their boxes looked at before they are decided, so that a pair costs about the same wherever
+   the triangle stands: time then tells the number of pairs. */
 int crossing_find_plainly(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
                           CrossingCount *count) {
     Search s = {edges, triangles, .out = out, .capacity = capacity, .count = count};
@@ -282,10 +284,9 @@ int crossing_find_plainly(const CrossingSet *edges, const CrossingSet *triangles
     count->pairs_tested += pairs;
     for (int triangle = 0; triangle < triangles->count; triangle++)
         for (int i = 0; i < tiles(edges->count); i++) {
-            const CrossingSieve *plane = &triangles->sieve[triangle / LANES];
-            unsigned found = lane_bits(reaching(&edges->sieve[i], plane, triangle % LANES, s.slack));
-            int left = edges->count - i * LANES;
-            if (left < LANES) found &= (1u << left) - 1;
+            int tile = triangle / LANES, k = triangle % LANES;
+            unsigned found = lane_bits(reaching(&edges->sieve[i], &triangles->sieve[tile], k, s.slack));
+            if (found) found &= lane_bits(overlapping(&edges->level[0][i], &triangles->level[0][tile], k));
             for (; found; found &= found - 1) decide(&s, i * LANES + lowest_lane(found), triangle);
         }
     return s.written;
