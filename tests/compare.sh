@@ -74,7 +74,8 @@ is 'every row has as many cells as its head' \
     "$(awk -F'|' '/^\| motion/ { n = NF } /^\|/ && NF != n' table)" ''
 
 # --- pictures ---
-like 'a picture of the tests' "$(cat run/tests.svg)" 'intersection tests'
+same 'figure 7 (a)' run/tests.svg "$here/golden/figure7a.svg"
+like 'says what it is' "$(cat run/tests.svg)" 'intersection tests'
 like 'adaptive is dashed' "$(cat run/tests.svg)" 'stroke-dasharray'
 is 'no picture of times without times' "$(ls run)" 'compare.csv
 tests.svg'
@@ -130,6 +131,8 @@ ok 'an unknown method' refuses 2 "'--methods'" "$walk" -g "$skirt" -o bad --meth
 ok 'no runs at all' refuses 2 "'--repeat'" "$walk" -g "$skirt" -o bad --repeat 0
 ok 'two garments from one pipe' refuses 2 'standard input' - -g "$skirt" -g "$root/garments/skirt.garment" -o bad
 echo 'a file' >file
+ok 'the paper knows no fixed topology' must_fail 2 "$KITSUKE" dress --method paper --topology fixed "$walk" \
+    -g "$skirt" -o bad
 ok 'a folder that is a file' refuses 4 'file' "$walk" -g "$skirt" -o file --no-times --frames 1:2
 is 'nothing is written' "$(ls -d bad 2>/dev/null)" ''
 done_testing

@@ -106,6 +106,8 @@ static bool check_conflicts(const Parser *p, Error *e) {
     const Settings *s = p->settings;
     if ((s->formats & FORMAT_NONE) && s->formats != FORMAT_NONE)
         return error_set(e, ERR_USAGE, "option '--format': 'none' cannot stand beside another format");
+    if (s->method == METHOD_PAPER && s->fixed)
+        return error_set(e, ERR_USAGE, "'--method paper' has no fixed topology: its patches share nothing");
     return true;
 }
 

@@ -38,7 +38,7 @@ enum { UNITS = sizeof units / sizeof units[0] };
 const Option settings_table[] = {
     {"motion", 0, KIND_LIST, FIELD(inputs), "FILE", "Motion", MOVES,
      "motion or folder of motions; on a command line the name alone will do"},
-    {"files-from", 0, KIND_TEXT, FIELD(files_from), "FILE", "Motion", BODIES,
+    {"files-from", 0, KIND_TEXT, FIELD(files_from), "FILE", "Motion", COMMAND_DRESS,
      "list of more motions, one in a line, or separated by NUL; -: standard input"},
     {"asf", 0, KIND_TEXT, FIELD(asf), "FILE", "Motion", MOVES,
      "skeleton of AMC motions", .fallback = "the .asf file beside the motion"},
