@@ -36,7 +36,10 @@ static int samples(const Option *o, char text[8][64]) {
         for (const Choice *c = o->choices; c && c->name && n < 8; c++) strcpy(text[n++], c->name);
         if (!o->choices) strcpy(text[n++], "a name # with \"blanks\"");
         break;
-    case KIND_SET: strcpy(text[n++], "obj,drc"); strcpy(text[n++], "none"); break;
+    case KIND_SET:
+        snprintf(text[n++], 64, "%s,%s", o->choices[0].name, o->choices[1].name);
+        snprintf(text[n++], 64, "%s", o->choices[2].name);
+        break;
     case KIND_SPAN:
         strcpy(text[n++], "7"); strcpy(text[n++], "3::2"); strcpy(text[n++], ":9"); strcpy(text[n++], "1:2:3");
         break;
