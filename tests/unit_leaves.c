@@ -138,7 +138,7 @@ static void mesh_lies_on_leaves(void) {
     body_frame_pose(&frame, &pose);
     dresser_frame(d, &frame, 0, true, &mesh, &stats);
     static LeafPatch leaf[MOST];
-    int n = dresser_leaves(d, leaf, MOST), corners = 0, on = 0;
+    int n = dresser_leaves(d, LEAVES_CELLS, leaf, MOST), corners = 0, on = 0;
     for (int k = 0; k < n; k++)
         for (int c = 0; c < 4; c++, corners++)
             for (int v = 0; v < mesh.nvertices; v++)
@@ -149,7 +149,9 @@ static void mesh_lies_on_leaves(void) {
     OK(n == stats.cells && stats.displacement > 0.02, "%d leaves of a skirt that was moved by %.0f mm", n,
        1000 * stats.displacement);
     OK(on >= corners * 9 / 10, "%d of %d corners of leaves are vertices of the mesh", on, corners);
-    OK(dresser_leaves(d, leaf, 1) == n, "the number of leaves does not depend on the room for them");
+    OK(dresser_leaves(d, LEAVES_CELLS, leaf, 1) == n, "the number of leaves does not depend on the room for them");
+    OK(dresser_leaves(d, LEAVES_BY_RULE, NULL, 0) == stats.leaves && stats.leaves < n, "the rule alone makes %d leaves",
+       stats.leaves);
 }
 
 int main(void) {

@@ -68,11 +68,11 @@ static inline bool neighbours_hit(const bool hit[4]) {
 /* The paper's rule on the global shape. A patch is hit if an edge of one of its colliders
    crosses its triangles (detail x detail x 2) or a corner of them lies inside. A patch that is
    hit is split in four, and all four are tested; where two that share a side are hit, splitting
-   ends there; else those that are hit are split again, down to the lattice's depth. The
-   corners of the leaves that are hit are opened (see leaves_open); the numbers in *out are those
-   of the rule alone. count.pairs_all is what the paper counts: nodes x 2 detail^2 x edges of the
-   garment's colliders. */
-void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule rule, Leaves *leaves,
+   ends there; else those that are hit are split again, down to the lattice's depth. *by_rule and
+   the numbers in *out are those of the rule alone; in *leaves the corners of the leaves that are
+   hit are opened besides (see leaves_open). count.pairs_all is what the paper counts: nodes
+   x 2 detail^2 x edges of the garment's colliders. */
+void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule rule, Leaves *by_rule, Leaves *leaves,
               Classification *out);
 
 #endif

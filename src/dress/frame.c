@@ -28,7 +28,8 @@ struct Dresser {
     Lattice lattice;
     Patch *root;
     Classifier classifier;
-    Leaves leaves, grid; /* grid: what is tessellated under a fixed topology */
+    Leaves by_rule, leaves; /* as the classification found them; as the solver refined them further */
+    Leaves grid;         /*  what is tessellated under a fixed topology */
     Sheet sheet;
     Push push;
     Tester tester;
@@ -69,6 +70,7 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
         !follow_reserve(&d->follower, &d->fit, figure, body, arena, e) ||
         !lattice_build(&d->fit, detail, depth, arena, &d->lattice, e) ||
         !classifier_reserve(&d->classifier, &d->lattice, arena, e) ||
+        !leaves_reserve(&d->by_rule, &d->lattice, arena, e) ||
         !leaves_reserve(&d->leaves, &d->lattice, arena, e) || !leaves_reserve(&d->grid, &d->lattice, arena, e) ||
         !sheet_reserve(&d->sheet, &d->lattice, arena, e) || !push_reserve(&d->push, &d->lattice, arena, e) ||
         !make_groups(d, arena, e))
@@ -205,7 +207,7 @@ static double plain_seconds(Dresser *d, const BodyFrame *body) {
     Classification found;
     double start = clock_seconds();
     d->classifier.plain = true;
-    classify(&d->classifier, d->root, body, d->options.split, &d->leaves, &found);
+    classify(&d->classifier, d->root, body, d->options.split, &d->by_rule, &d->leaves, &found);
     d->classifier.plain = false;
     return clock_seconds() - start;
 }
@@ -213,7 +215,7 @@ static double plain_seconds(Dresser *d, const BodyFrame *body) {
 static void split_by_rule(Dresser *d, const BodyFrame *body, FrameStats *stats, Classification *found) {
     if (d->options.plain_tests) stats->plain_s = plain_seconds(d, body);
     double start = clock_seconds();
-    classify(&d->classifier, d->root, body, d->options.split, &d->leaves, found);
+    classify(&d->classifier, d->root, body, d->options.split, &d->by_rule, &d->leaves, found);
     stats->classify_s = stats->test_s = clock_seconds() - start;
     stats->nodes = found->nodes;
     stats->leaves = found->leaves;
@@ -285,12 +287,34 @@ void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, M
     stats->capped |= found.capped;
 }
 
-int dresser_leaves(const Dresser *d, LeafPatch *out, int capacity) {
+static int literal_leaves(const Literal *l, LeafPatch *out, int capacity) {
+    for (int k = 0; k < l->nleaves && k < capacity; k++)
+        out[k] = (LeafPatch){l->leaf[k].patch, l->leaf[k].cell.patch, l->leaf[k].level};
+    return l->nleaves;
+}
+
+/* Its leaves have pieces of their own, so the edges of each piece are all there is. */
+static int literal_borders(const Literal *l, Edge *out) {
+    int side = l->lattice->detail, row = side + 1, n = 0;
+    for (int k = 0; k < l->nleaves; k++)
+        for (int i = 0, first = k * row * row; i < side; i++) {
+            out[n++] = (Edge){{first + i, first + i + 1}};
+            out[n++] = (Edge){{first + side * row + i, first + side * row + i + 1}};
+            out[n++] = (Edge){{first + i * row, first + (i + 1) * row}};
+            out[n++] = (Edge){{first + i * row + side, first + (i + 1) * row + side}};
+        }
+    return n;
+}
+
+static const Leaves *leaves_of(const Dresser *d, LeafKind kind) { return kind == LEAVES_BY_RULE ? &d->by_rule : &d->leaves; }
+
+int dresser_leaves(const Dresser *d, LeafKind kind, LeafPatch *out, int capacity) {
+    if (d->options.method == METHOD_PAPER) return literal_leaves(&d->literal, out, capacity);
     int depth = d->lattice.depth, cells = 1 << depth, n = 0;
     for (int p = 0; p < d->fit.npatches; p++)
         for (int x = 0; x < cells; x++)
             for (int y = 0; y < cells; y++) {
-                int level = leaf_at(&d->leaves, p, x, y), shift = depth - level;
+                int level = leaf_at(leaves_of(d, kind), p, x, y), shift = depth - level;
                 if (level < 0 || n++ >= capacity) continue;
                 LatticeCell cell = {p, x >> shift, y >> shift};
                 out[n - 1] = (LeafPatch){push_leaf(&d->push, d->root, cell, level), p, level};
@@ -298,7 +322,10 @@ int dresser_leaves(const Dresser *d, LeafPatch *out, int capacity) {
     return n;
 }
 
-int dresser_borders(const Dresser *d, Edge *out) { return sheet_borders(&d->sheet, &d->leaves, out); }
+int dresser_borders(const Dresser *d, LeafKind kind, Edge *out) {
+    if (d->options.method == METHOD_PAPER) return literal_borders(&d->literal, out);
+    return sheet_borders(&d->sheet, leaves_of(d, kind), out);
+}
 
 DresserInfo dresser_info(const Dresser *d) {
     return (DresserInfo){

@@ -153,11 +153,12 @@ static int all_cells(const Lattice *l, int level, LatticeCell *out) {
     return n;
 }
 
-void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule rule, Leaves *leaves,
+void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule rule, Leaves *by_rule, Leaves *leaves,
               Classification *out) {
     const Lattice *l = c->lattice;
     *out = (Classification){0};
     int level = rule == SPLIT_UNIFORM ? l->depth : 0, ncells = all_cells(l, level, c->cell);
+    leaves_fill(by_rule, level);
     leaves_fill(leaves, level);
     test_cells(c, root, body, level, ncells, out);
     out->leaves = ncells;
@@ -171,7 +172,9 @@ void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule
             for (int child = 0; child < 4; child++) {
                 LatticeCell cell = {c->next[k].patch, 2 * c->next[k].a + child / 2, 2 * c->next[k].b + child % 2};
                 c->cell[ncells++] = cell;
-                if (child == 0) leaves_split(leaves, cell.patch, level, cell.a, cell.b);
+                if (child > 0) continue; /* it splits the parent, once */
+                leaves_split(by_rule, cell.patch, level, cell.a, cell.b);
+                leaves_split(leaves, cell.patch, level, cell.a, cell.b);
             }
         test_cells(c, root, body, level, ncells, out);
         open_corners(c, level, ncells, leaves);
