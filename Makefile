@@ -88,6 +88,11 @@ demo: all					## dress the walk of the paper in a skirt, into build/demo
 	build/$(NAME) dress $(SHOW) --output build/demo --force
 	@echo 'Look at build/demo/paper-walk: skirt.*.obj and body.*.obj open in any 3D viewer, stats.csv in any spreadsheet.'
 
+figures: all					## draw the figures of the paper, into build/figures
+	@mkdir -p build/figures
+	@for n in 5 6; do echo "  DRAW build/figures/figure$$n.svg"; \
+	build/$(NAME) draw --job tests/golden/figure$$n.job -o build/figures/figure$$n.svg || exit 1; done
+
 JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
 test: $(OUT)/$(NAME) $(UNIT) build/deps-test	## unit programs and shell tests, through prove
 	@KITSUKE='$(CURDIR)/$(OUT)/$(NAME)' KITSUKE_BUILD=$(BUILD) ASAN_OPTIONS=exitcode=99 \
@@ -145,5 +150,5 @@ help:						## this list
 	@awk -F ':.*## *' '/^[a-z]+:.*## / {printf "  %-10s %s\n", $$1, $$2}' Makefile
 
 -include $(OBJ:.o=.d) $(UNIT:=.d) $(LINT:=.d)
-.PHONY: all demo test check bench lint fuzz fuzz-run format install uninstall dist clean help FORCE
+.PHONY: all demo figures test check bench lint fuzz fuzz-run format install uninstall dist clean help FORCE
 .SECONDARY:

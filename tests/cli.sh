@@ -4,7 +4,7 @@
 
 walk=$root/motions/paper-walk.bvh
 skirt=$root/garments/skirt.garment
-commands='compare dress inspect verify walk'
+commands='compare draw dress inspect verify walk'
 
 says() { # says PATTERN: a line of stderr of the last must_fail matches
     grep -Eq -e "$1" err || { echo "stderr has no line like: $1"; cat err; return 1; }

@@ -10,5 +10,6 @@ ErrorKind cmd_compare(const Settings *settings, Error *e);
 ErrorKind cmd_inspect(const Settings *settings, Error *e);
 ErrorKind cmd_walk(const Settings *settings, Error *e);
 ErrorKind cmd_verify(const Settings *settings, Error *e);
+ErrorKind cmd_draw(const Settings *settings, Error *e);
 
 #endif

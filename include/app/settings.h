@@ -8,7 +8,8 @@
 #include "motion/gait.h"
 
 typedef enum {
-    COMMAND_DRESS = 1, COMMAND_INSPECT = 2, COMMAND_WALK = 4, COMMAND_VERIFY = 8, COMMAND_COMPARE = 16, COMMAND_ALL = 31
+    COMMAND_DRESS = 1, COMMAND_INSPECT = 2, COMMAND_WALK = 4, COMMAND_VERIFY = 8, COMMAND_COMPARE = 16,
+    COMMAND_DRAW = 32, COMMAND_ALL = 63
 } CommandBit;
 
 /* Frames first, first + step, ... up to last, counted from 1. 0: from the first, to the last,
@@ -21,6 +22,19 @@ typedef enum { FORMAT_OBJ = 1, FORMAT_DRC = 2, FORMAT_NONE = 4 } FormatBit;
 /* What is compared: global, no local deformation; paper, the paper's to the letter. */
 typedef enum { COMPARE_UNIFORM, COMPARE_ADAPTIVE, COMPARE_GLOBAL, COMPARE_PAPER, COMPARE_METHODS } CompareMethod;
 typedef enum { PROGRESS_AUTO, PROGRESS_ALWAYS, PROGRESS_NEVER } ProgressMode;
+
+enum { SHOW_PATCHES = 1, SHOW_POINTS = 2, SHOW_CELLS = 4 };
+
+/* A sheet of pictures, as it is asked for; drawing.h has what that means. */
+typedef struct {
+    const char *frames, *view;
+    TextList cells;
+    unsigned show;              /* SHOW_ bits */
+    double zoom;                /* 0 = 1 */
+    int size;                   /* points; 0 = 320 */
+    int columns;                /* 0: what suits */
+    bool follow;
+} DrawSettings;
 
 /* Filled by options_parse, const for everybody else. Zero is the default everywhere, but for
    `gait`, which gait_defaults fills. */
@@ -60,6 +74,7 @@ typedef struct {
     bool list;                  /* verify */
     const char *parts;          /* verify: groups of the body, separated by commas; NULL = all */
     Gait gait;                  /* walk */
+    DrawSettings draw;
     const char *job;            /* file with more of these */
     bool print_job, help, version;
 } Settings;

@@ -27,6 +27,12 @@ static const Command commands[] = {
      .operands = "[OPTION]...",
      .example = "kitsuke walk --preset paper -o paper-walk.bvh\n"
                 "kitsuke walk --height 1.2 --speed 0.9 --steps 20 > child.bvh"},
+    {.name = "draw", .bit = COMMAND_DRAW, .run = cmd_draw,
+     .summary = "draw frames as SVG pictures",
+     .operands = "[OPTION]... MOTION -g GARMENT... -o FILE.svg",
+     .example = "kitsuke draw motions/paper-walk.bvh -g garments/skirt.garment -o walk.svg\n"
+                "kitsuke draw motions/paper-walk.bvh -g garments/skirt.garment -o sheet.svg \\\n"
+                "    --frames 1:36:7 --view 60/10 --follow --show patches,points"},
     {.name = "verify", .bit = COMMAND_VERIFY, .run = cmd_verify,
      .summary = "test written meshes: what shows through, what cracks",
      .operands = "[OPTION]... DIR... | --garment FILE --body FILE",

@@ -22,6 +22,8 @@ static const Choice compared[] = {
     {"uniform", 1 << COMPARE_UNIFORM}, {"adaptive", 1 << COMPARE_ADAPTIVE}, {"global", 1 << COMPARE_GLOBAL},
     {"paper", 1 << COMPARE_PAPER}, {NULL, 0}};
 static const Choice presets[] = {{"normal", 0}, {"paper", 0}, {"brisk", 0}, {"squat", 0}, {"turn", 0}, {NULL, 0}};
+static const Choice shows[] = {
+    {"patches", SHOW_PATCHES}, {"points", SHOW_POINTS}, {"cells", SHOW_CELLS}, {NULL, 0}};
 static const Choice progress_modes[] = {
     {"auto", PROGRESS_AUTO}, {"always", PROGRESS_ALWAYS}, {"never", PROGRESS_NEVER}, {NULL, 0}};
 
@@ -32,8 +34,8 @@ enum { UNITS = sizeof units / sizeof units[0] };
 
 #define FIELD(name) .field = offsetof(Settings, name)
 #define RANGE(least, most) .low = (least), .high = (most)
-#define BODIES (COMMAND_DRESS | COMMAND_COMPARE) /* what dresses bodies */
-#define MOVES (BODIES | COMMAND_INSPECT)          /* what opens motions */
+#define BODIES (COMMAND_DRESS | COMMAND_COMPARE | COMMAND_DRAW) /* what dresses bodies */
+#define MOVES (BODIES | COMMAND_INSPECT)                         /* what opens motions */
 
 const Option settings_table[] = {
     {"motion", 0, KIND_LIST, FIELD(inputs), "FILE", "Motion", MOVES,
@@ -44,9 +46,11 @@ const Option settings_table[] = {
      "skeleton of AMC motions", .fallback = "the .asf file beside the motion"},
     {"roles", 0, KIND_TEXT, FIELD(roles), "FILE", "Motion", MOVES,
      "which joint is which bone, as lines 'role = joint'", .fallback = "found by names and shape"},
-    {"frames", 0, KIND_SPAN, FIELD(frames), "A:B:STEP", "Motion", MOVES,
+    {"frames", 0, KIND_SPAN, FIELD(frames), "A:B:STEP", "Motion", MOVES & ~COMMAND_DRAW,
      "first and last frame, counted from 1, and step; each part may be left out", .fallback = "all"},
-    {"rate", 0, KIND_REAL, FIELD(rate), "HZ", "Motion", BODIES,
+    {"frames", 0, KIND_TEXT, FIELD(draw.frames), "LIST", "Motion", COMMAND_DRAW,
+     "frames to draw, separated by commas: A, A:B or A:B:STEP, counted from 1", .fallback = "six, evenly spread"},
+    {"rate", 0, KIND_REAL, FIELD(rate), "HZ", "Motion", COMMAND_DRESS | COMMAND_COMPARE,
      "resample to so many frames a second; --frames then counts these", .fallback = "the motion's own",
      RANGE(0.001, 100000)},
     {"fps", 0, KIND_REAL, FIELD(fps), "HZ", "Motion", MOVES,
@@ -68,10 +72,10 @@ const Option settings_table[] = {
     {"body-detail", 0, KIND_INT, FIELD(body_detail), "N", "Garments and body", BODIES,
      "facets round each section of the body", .fallback = "16", RANGE(8, 64), .step = 4},
 
-    {"method", 0, KIND_CHOICE, FIELD(method), "NAME", "Method", COMMAND_DRESS,
+    {"method", 0, KIND_CHOICE, FIELD(method), "NAME", "Method", COMMAND_DRESS | COMMAND_DRAW,
      "local deformation: push shared vertices out of the body, the paper's way to the letter, or none",
      .fallback = "push", .choices = methods},
-    {"split", 0, KIND_CHOICE, FIELD(split), "RULE", "Method", COMMAND_DRESS,
+    {"split", 0, KIND_CHOICE, FIELD(split), "RULE", "Method", COMMAND_DRESS | COMMAND_DRAW,
      "which patches are split: those that meet the body, all, or none", .fallback = "adaptive",
      .choices = split_rules},
     {"depth", 0, KIND_INT, FIELD(depth), "N", "Method", BODIES,
@@ -100,7 +104,7 @@ const Option settings_table[] = {
      "length unit of the written meshes", .fallback = "m", RANGE(1e-6, 1e6)},
     {"no-body", 0, KIND_FLAG, FIELD(no_body), NULL, "Output", COMMAND_DRESS,
      "write no meshes of the body"},
-    {"no-times", 0, KIND_FLAG, FIELD(no_times), NULL, "Output", BODIES,
+    {"no-times", 0, KIND_FLAG, FIELD(no_times), NULL, "Output", COMMAND_DRESS | COMMAND_COMPARE,
      "leave the columns of seconds out of the statistics"},
     {"force", 'f', KIND_FLAG, FIELD(force), NULL, "Output", COMMAND_DRESS,
      "replace motion folders that are there already", .manner = true},
@@ -141,6 +145,25 @@ const Option settings_table[] = {
     {"output", 'o', KIND_TEXT, FIELD(output), "FILE", "Output", COMMAND_WALK,
      "BVH file to write", .fallback = "standard output"},
 
+    {"view", 0, KIND_TEXT, FIELD(draw.view), "SIDE", "Picture", COMMAND_DRAW,
+     "front, back, left, right, iso, or degrees AZ/EL round to the figure's left and above", .fallback = "front"},
+    {"zoom", 0, KIND_REAL, FIELD(draw.zoom), "X", "Picture", COMMAND_DRAW,
+     "shows so much less round the garments", .fallback = "1, all", RANGE(1, 20)},
+    {"follow", 0, KIND_FLAG, FIELD(draw.follow), NULL, "Picture", COMMAND_DRAW,
+     "the camera goes along with the figure"},
+    {"show", 0, KIND_SET, FIELD(draw.show), "LIST", "Picture", COMMAND_DRAW,
+     "also show borders of patches, their control points, both for the cells that the solver made of patches",
+     .fallback = "nothing more", .choices = shows},
+    {"cell", 0, KIND_LIST, FIELD(draw.cells), "WORDS=TITLE", "Picture", COMMAND_DRAW,
+     "one of several pictures of each frame: methods, rules of splitting and what to show, separated by commas, "
+     "and a title if you like", .fallback = "one picture by the options above"},
+    {"size", 0, KIND_INT, FIELD(draw.size), "N", "Picture", COMMAND_DRAW,
+     "height of each picture in points", .fallback = "320", RANGE(50, 1000)},
+    {"columns", 0, KIND_INT, FIELD(draw.columns), "N", "Picture", COMMAND_DRAW,
+     "pictures in a row of the sheet", .fallback = "what suits", RANGE(1, 64)},
+    {"output", 'o', KIND_TEXT, FIELD(output), "FILE", "Output", COMMAND_DRAW,
+     "SVG file to write; - is standard output"},
+
     {"garment", 'g', KIND_LIST, FIELD(garments), "FILE", "Meshes", COMMAND_VERIFY,
      "garment meshes, the frame's number at *, #### or %04d; repeat it for several", .fallback = "those in DIR"},
     {"body", 0, KIND_TEXT, FIELD(body), "FILE", "Meshes", COMMAND_VERIFY,
@@ -166,7 +189,7 @@ const Option settings_table[] = {
      "errors only", .manner = true},
     {"verbose", 'v', KIND_FLAG, FIELD(verbose), NULL, "Messages", COMMAND_DRESS,
      "more about each motion, and where the time went", .manner = true},
-    {"progress", 0, KIND_CHOICE, FIELD(progress), "WHEN", "Messages", BODIES,
+    {"progress", 0, KIND_CHOICE, FIELD(progress), "WHEN", "Messages", COMMAND_DRESS | COMMAND_COMPARE,
      "a line that tells how far it is; auto: on a terminal", .fallback = "auto", .choices = progress_modes,
      .manner = true},
     {"help", 'h', KIND_FLAG, FIELD(help), NULL, "Messages", COMMAND_ALL,
