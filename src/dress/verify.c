@@ -55,7 +55,9 @@ static void find_pairs(Check *c, int t) {
     Corners a = corners(c->garment, t);
     Box box = box_of_triangle(c->garment->position, c->garment->triangle[t]);
     for (int s = 0; s < c->body->shells.count; s++) {
-        BoxWalk walk = boxtree_walk(&c->body->shells.shell[s].surface, box);
+        const BoxTree *surface = &c->body->shells.shell[s].surface;
+        if (!box_touches(boxtree_box(surface), box)) continue;
+        BoxWalk walk = boxtree_walk(surface, box);
         for (int other; (other = boxtree_next(&walk)) >= 0;) {
             Corners b = corners(c->body->mesh, other);
             if (!side_meets(&a, &b) && !side_meets(&b, &a)) continue;

@@ -81,7 +81,11 @@ bool boxtree_build(BoxTree *tree, const Vec3 *position, const Triangle *triangle
 Box boxtree_box(const BoxTree *tree) { return tree->node[0].box; }
 
 BoxWalk boxtree_walk(const BoxTree *tree, Box box) {
-    BoxWalk w = {.tree = tree, .box = box, .depth = 1};
+    BoxWalk w; /* its stack is left as it is: walks are many and short */
+    w.tree = tree;
+    w.box = box;
+    w.at = w.end = 0;
+    w.depth = 1;
     w.stack[0] = 0;
     return w;
 }

@@ -50,9 +50,9 @@ static int by_edge(const void *a, const void *b) {
     return s->way - t->way;
 }
 
-/* A bucket mostly holds the few edges that meet in a vertex: insertion. */
+/* A bucket mostly holds the few edges that meet in a vertex, nearly in order: insertion. */
 static void sort_bucket(Side *side, int n) {
-    if (n > 64) {
+    if (n > 1000) {
         qsort(side, (size_t)n, sizeof *side, by_edge);
         return;
     }
