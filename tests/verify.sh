@@ -93,6 +93,23 @@ cube bare/cloth.0001.obj 0 1
 ok 'garments without a body: exit 3' verify 3 bare
 ok 'its message' says 'bare: error: garments without a body'
 
+# Accelerations: a cube on a path that bends by 2 along each axis, a body that stands still
+rm m.*.obj
+cube m.0001.obj 2 3
+cube m.0002.obj 3 4
+cube m.0003.obj 6 7
+cube still.obj 0 1
+ok '--acceleration' verify 0 --garment 'm.*.obj' --body still.obj --acceleration --rate 1
+is 'over a frame and the two before it' "$(column acceleration)" '  3.4641 '
+is 'that of the body' "$(column body_acceleration)" '  0.0000 '
+mv m.0003.obj m.0005.obj
+mv m.0002.obj m.0003.obj
+ok 'every second frame' verify 0 --garment 'm.*.obj' --body still.obj --acceleration --rate 2
+is 'is half the rate' "$(column acceleration)" '  3.4641 '
+mv m.0005.obj m.0004.obj
+ok 'frames unequally far apart' verify 3 --garment 'm.*.obj' --body still.obj --acceleration --rate 2
+is 'have none' "$(column acceleration)" '   '
+
 # Our own
 skirt=$root/garments/skirt.garment trousers=$root/garments/trousers.garment
 "$KITSUKE" dress "$walk" -g "$skirt" -g "$trousers" -o out -q --format obj,drc --frames 1::12
@@ -100,7 +117,19 @@ hips=pelvis,spine,chest,left_thigh,right_thigh,left_shin,right_shin
 ok 'the walk of the paper is clean against torso and legs' verify 0 out --parts $hips
 is 'the motion is named' "$(column motion | tr ' ' '\n' | sort -u | tr '\n' ' ')" 'paper-walk '
 is 'borders: skirt 2, trousers 3' "$(column borders | cut -c 1-8)" '2 3 2 3 '
+ok '--landmarks' verify 0 out --parts $hips --landmarks
+is 'hips are covered' "$(column cover_hips | tr ' ' '\n' | sort -u | tr '\n' ' ')" '1.0000 '
+is 'knees too' "$(column cover_knees | tr ' ' '\n' | sort -u | tr '\n' ' ')" '1.0000 '
 is 'a row for each mesh' "$(wc -l <table | tr -d ' ')" "$(($(find out -name '*.obj' ! -name 'body*' | wc -l) + 1))"
+"$KITSUKE" dress "$walk" -g "$skirt" -o fast -q --rate 50 --frames 1:3
+ok 'the rate stands in stats.csv' verify 0 fast --parts $hips --acceleration
+column acceleration >told
+ok 'or is given' verify 0 fast --parts $hips --acceleration --rate 50
+is 'with the same result' "$(column acceleration)" "$(cat told)"
+like 'which is one' "$(cat told)" '^  [0-9.]+ $'
+ok 'another rate' verify 0 fast --parts $hips --acceleration --rate 30
+ok 'is another result' test "$(column acceleration)" != "$(cat told)"
+ok 'all frames' verify 0 out --parts $hips
 cp table whole
 ok 'a folder of one motion' verify 0 out/paper-walk --parts $hips
 is 'gives the same rows' "$(cut -d, -f 2- table)" "$(cut -d, -f 2- whole)"

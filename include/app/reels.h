@@ -10,6 +10,7 @@ typedef struct {
     Sequence body;
     int ngarments;
     Sequence *garment;
+    double rate;         /* frames a second as stats.csv tells, where --acceleration needs it; 0: unknown */
     Error error;         /* kind 0: all the above is there */
 } Reel;
 

@@ -71,7 +71,7 @@ typedef struct {
     unsigned methods;           /* compare: bits 1 << CompareMethod; uniform and adaptive are always run */
     int repeat;                 /* compare: runs that are timed; 0 = 3 */
     bool joints;                /* inspect */
-    bool list;                  /* verify */
+    bool list, acceleration, landmarks; /* verify */
     const char *parts;          /* verify: groups of the body, separated by commas; NULL = all */
     Gait gait;                  /* walk */
     DrawSettings draw;

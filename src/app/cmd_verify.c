@@ -7,6 +7,8 @@
 #include "app/commands.h"
 #include "app/reels.h"
 #include "app/stop.h"
+#include "dress/cover.h"
+#include "dress/sway.h"
 #include "dress/verify.h"
 #include "files/drc.h"
 #include "files/obj.h"
@@ -14,18 +16,31 @@
 /* Gaps in a border up to this are cracks: wider than any rounding, narrower than any slit. Metres. */
 static const double CRACK = 0.002;
 
+/* Frames a second, where nobody says. */
+static const double USUAL_RATE = 30;
+
 enum { OBJ_LIMIT = 1 << 30 };
+
+/* The meshes of one frame, kept while the next two are looked at. */
+typedef struct {
+    Arena arena;
+    int number;
+    Mesh body, *garment;   /* garments as in the reel */
+    bool *is_read;         /* of each garment */
+    SwayFrame *sway;       /* likewise, where accelerations are asked for */
+    Solid solid;
+    double unit;           /* metres */
+} Frame;
+
+enum { FRAMES_KEPT = 3 };
 
 typedef struct {
     const Settings *settings;
-    Arena arena;             /* of the frame */
     ErrorKind worst;
     const Reel *reel;
-    int frame;
-    const Sequence *garment;
-    Mesh body;
-    double body_unit, garment_unit; /* metres */
-    long long frames, bad_frames, pairs, inside, cracks;
+    Frame kept[FRAMES_KEPT], *frame; /* frame: the one that is looked at */
+    int nframes, garment;            /* frames of the reel so far; the garment that is looked at */
+    long long meshes, bad_meshes, pairs, inside, cracks;
     double deepest;
 } Run;
 
@@ -50,12 +65,13 @@ static double unit_of(const Text *text, double fallback) {
 }
 
 static bool read_mesh(Run *r, const char *path, Mesh *out, double *unit, Error *e) {
+    Arena *arena = &r->frame->arena;
     Text text;
     *unit = 1;
     if (has_ending(path, ".drc")) {
-        if (!drc_read(path, &r->arena, out, e)) return false;
+        if (!drc_read(path, arena, out, e)) return false;
     } else {
-        if (!text_read(path, OBJ_LIMIT, &r->arena, &text, e) || !obj_parse(&text, &r->arena, out, e)) return false;
+        if (!text_read(path, OBJ_LIMIT, arena, &text, e) || !obj_parse(&text, arena, out, e)) return false;
         *unit = unit_of(&text, 1);
     }
     if (r->settings->unit > 0) *unit = r->settings->unit;
@@ -82,11 +98,11 @@ static bool mark_part(const Mesh *body, const char *path, const char *name, size
 static bool find_parts(Run *r, const char *path, bool **wanted, Error *e) {
     *wanted = NULL;
     if (!r->settings->parts) return true;
-    *wanted = ARENA_NEW(&r->arena, bool, r->body.ngroups, e);
+    *wanted = ARENA_NEW(&r->frame->arena, bool, r->frame->body.ngroups, e);
     bool good = *wanted != NULL;
     for (const char *at = r->settings->parts; good; at++) {
         size_t length = strcspn(at, ",");
-        good = mark_part(&r->body, path, at, length, *wanted, e);
+        good = mark_part(&r->frame->body, path, at, length, *wanted, e);
         at += length;
         if (!*at) break;
     }
@@ -108,18 +124,24 @@ static void print_text(const char *text) {
 }
 
 static void print_head(const Settings *s) {
-    if (s->list)
+    if (s->list) {
         printf("# units: distance m; at as in the meshes\n"
                "motion,frame,garment,kind,item,part,other,distance,at_x,at_y,at_z\n");
-    else
-        printf("# units: deepest m; all other numbers are counts\n"
-               "motion,frame,garment,pairs,inside,deepest,worst_part,cracks,borders\n");
+        return;
+    }
+    printf("# units: deepest m;%s%s all other numbers are counts\n"
+           "motion,frame,garment,pairs,inside,deepest,worst_part,cracks,borders",
+           s->acceleration ? " acceleration m/s^2; body_acceleration m/s^2;" : "",
+           s->landmarks ? " cover from 0 to 1;" : "");
+    if (s->acceleration) printf(",acceleration,body_acceleration");
+    for (int p = 0; s->landmarks && p < COVER_COUNT; p++) printf(",cover_%s", cover_names[p]);
+    putchar('\n');
 }
 
 static void print_start(const Run *r) {
     print_text(r->reel->motion);
-    printf("%d,", r->frame);
-    print_text(r->garment->name);
+    printf("%d,", r->frame->number);
+    print_text(r->reel->garment[r->garment].name);
 }
 
 static const char *group_name(const Mesh *m, int group) { return group >= 0 ? m->group[group].name : ""; }
@@ -136,62 +158,109 @@ static void print_finding(void *context, const Finding *f) {
     static const char *const kinds[] = {"pair", "inside", "crack"};
     print_start(r);
     printf("%s,%d,", kinds[f->kind], f->item + 1);
-    print_text(f->other < 0 ? "" : group_name(&r->body, group_of(&r->body, f->other)));
+    print_text(f->other < 0 ? "" : group_name(&r->frame->body, group_of(&r->frame->body, f->other)));
     if (f->other >= 0) printf("%d", f->other + 1);
-    printf(",%.6f,%.6f,%.6f,%.6f\n", f->distance * r->garment_unit, f->at.x, f->at.y, f->at.z);
+    printf(",%.6f,%.6f,%.6f,%.6f\n", f->distance * r->frame->unit, f->at.x, f->at.y, f->at.z);
 }
 
-static void print_verdict(const Run *r, const Verdict *v) {
+/* Numbers that are not there leave their field empty. */
+static void print_number(double x) {
+    if (isfinite(x)) printf(",%.4f", x);
+    else putchar(',');
+}
+
+static void print_verdict(const Run *r, const Verdict *v, const double acceleration[2], const double *share) {
     print_start(r);
-    printf("%d,%d,%.6f,", v->pairs, v->inside, v->deepest * r->garment_unit);
-    print_text(group_name(&r->body, v->worst));
-    printf("%d,%d\n", v->cracks, v->borders);
+    printf("%d,%d,%.6f,", v->pairs, v->inside, v->deepest * r->frame->unit);
+    print_text(group_name(&r->frame->body, v->worst));
+    printf("%d,%d", v->cracks, v->borders);
+    for (int k = 0; r->settings->acceleration && k < 2; k++) print_number(acceleration[k]);
+    for (int p = 0; r->settings->landmarks && p < COVER_COUNT; p++) print_number(share[p]);
+    putchar('\n');
 }
 
 static void print_summary(const Run *r) {
     fprintf(stderr, "%lld mesh%s, %lld with findings: %lld pairs, %lld vertices inside, deepest %.2f mm, %lld cracks\n",
-            r->frames, r->frames == 1 ? "" : "es", r->bad_frames, r->pairs, r->inside, 1000 * r->deepest, r->cracks);
+            r->meshes, r->meshes == 1 ? "" : "es", r->bad_meshes, r->pairs, r->inside, 1000 * r->deepest, r->cracks);
 }
 
 /* --- testing --- */
 
-static bool verify_garment(Run *r, const Solid *solid, const char *path, Error *e) {
-    Mesh mesh;
-    Verdict v;
-    Findings findings = {r->settings->list ? print_finding : NULL, r};
-    if (!read_mesh(r, path, &mesh, &r->garment_unit, e)) return false;
-    if (r->garment_unit != r->body_unit)
-        return error_at(e, ERR_INPUT, (Place){.file = path}, "its unit is %.9g m, that of the body %.9g m",
-                        r->garment_unit, r->body_unit);
-    if (!verify_meshes(solid, &mesh, CRACK / r->garment_unit, findings, &r->arena, &v, e)) return false;
-    if (!r->settings->list) print_verdict(r, &v);
-    r->frames++;
-    r->bad_frames += v.pairs || v.inside || v.cracks;
-    r->pairs += v.pairs;
-    r->inside += v.inside;
-    r->cracks += v.cracks;
-    r->deepest = fmax(r->deepest, v.deepest * r->garment_unit);
+/* Of the garment and the body over this frame and the two before it, in metres a second squared;
+   NAN where these are not there, or not equally far apart. */
+static bool measure_sway(Run *r, double acceleration[2], Error *e) {
+    Frame *now = r->frame, *first = &r->kept[r->nframes % FRAMES_KEPT];
+    Frame *last = &r->kept[(r->nframes + 1) % FRAMES_KEPT];
+    int g = r->garment, gap = now->number - last->number;
+    acceleration[0] = acceleration[1] = NAN;
+    if (!sway_frame(&now->garment[g], &now->body, &now->arena, &now->sway[g], e)) return false;
+    if (r->nframes < FRAMES_KEPT || last->number - first->number != gap) return true;
+    if (!last->is_read || !first->is_read || !last->is_read[g] || !first->is_read[g]) return true;
+    const SwayFrame *before[2] = {&first->sway[g], &last->sway[g]};
+    if (!sway_measure(before, &now->sway[g], &now->arena, &acceleration[0], &acceleration[1], e)) return false;
+    double rate = r->settings->rate > 0 ? r->settings->rate : r->reel->rate > 0 ? r->reel->rate : USUAL_RATE;
+    for (int k = 0; k < 2; k++) acceleration[k] *= now->unit * rate * rate / gap / gap;
     return true;
 }
 
+static void add_up(Run *r, const Verdict *v) {
+    r->meshes++;
+    r->bad_meshes += v->pairs || v->inside || v->cracks;
+    r->pairs += v->pairs;
+    r->inside += v->inside;
+    r->cracks += v->cracks;
+    r->deepest = fmax(r->deepest, v->deepest * r->frame->unit);
+}
+
+static bool verify_garment(Run *r, const char *path, Error *e) {
+    const Settings *s = r->settings;
+    Frame *f = r->frame;
+    Mesh *mesh = &f->garment[r->garment];
+    Verdict v;
+    Findings findings = {s->list ? print_finding : NULL, r};
+    double unit, acceleration[2], share[COVER_COUNT];
+    if (!read_mesh(r, path, mesh, &unit, e)) return false;
+    if (unit != f->unit)
+        return error_at(e, ERR_INPUT, (Place){.file = path}, "its unit is %.9g m, that of the body %.9g m", unit,
+                        f->unit);
+    if (!verify_meshes(&f->solid, mesh, CRACK / unit, findings, &f->arena, &v, e)) return false;
+    if (s->acceleration && !measure_sway(r, acceleration, e)) return false;
+    if (s->landmarks && !cover_measure(&f->body, mesh, &f->arena, share, e)) return false;
+    f->is_read[r->garment] = true;
+    if (!s->list) print_verdict(r, &v, acceleration, share);
+    add_up(r, &v);
+    return true;
+}
+
+/* Forgets the oldest frame for a new one. */
+static bool start_frame(Run *r, int number, Error *e) {
+    Frame *f = r->frame = &r->kept[r->nframes++ % FRAMES_KEPT];
+    Arena arena = f->arena;
+    arena_reset(&arena);
+    *f = (Frame){.arena = arena, .number = number};
+    f->garment = ARENA_NEW(&f->arena, Mesh, r->reel->ngarments, e);
+    f->sway = ARENA_NEW(&f->arena, SwayFrame, r->reel->ngarments, e);
+    f->is_read = ARENA_NEW(&f->arena, bool, r->reel->ngarments, e);
+    return f->garment && f->sway && f->is_read;
+}
+
 /* False ends the run: a mistake in the command line, or no memory. */
-static bool verify_frame(Run *r, Error *e) {
+static bool verify_frame(Run *r, int number, Error *e) {
     Error trouble = {0};
-    Solid solid;
     bool *wanted;
-    const char *path = sequence_path(&r->reel->body, r->frame);
-    arena_reset(&r->arena);
+    const char *path = sequence_path(&r->reel->body, number);
+    if (!start_frame(r, number, e)) return false;
+    Frame *f = r->frame;
     if (!path) return true;
-    if (!read_mesh(r, path, &r->body, &r->body_unit, &trouble)) {
+    if (!read_mesh(r, path, &f->body, &f->unit, &trouble)) {
         complain(r, &trouble);
         return true;
     }
-    if (!find_parts(r, path, &wanted, e) || !solid_make(&r->body, wanted, &r->arena, &solid, e)) return false;
-    for (int g = 0; g < r->reel->ngarments; g++) {
-        r->garment = &r->reel->garment[g];
-        path = sequence_path(r->garment, r->frame);
+    if (!find_parts(r, path, &wanted, e) || !solid_make(&f->body, wanted, &f->arena, &f->solid, e)) return false;
+    for (r->garment = 0; r->garment < r->reel->ngarments; r->garment++) {
+        path = sequence_path(&r->reel->garment[r->garment], number);
         trouble = (Error){0};
-        if (path && !verify_garment(r, &solid, path, &trouble)) complain(r, &trouble);
+        if (path && !verify_garment(r, path, &trouble)) complain(r, &trouble);
     }
     return true;
 }
@@ -235,10 +304,10 @@ static bool verify_reel(Run *r, Arena *arena, Error *e) {
         return error_set(e, ERR_USAGE, "option '--frames': '%s' has none of them", r->reel->body.pattern);
     report_missing(r, &r->reel->body, frame, n, step);
     for (int g = 0; g < r->reel->ngarments; g++) report_missing(r, &r->reel->garment[g], frame, n, step);
+    r->nframes = 0;
     for (int i = 0; i < n && !ferror(stdout); i++) {
         if (stop_requested()) return error_set(e, ERR_INTERRUPTED, "interrupted");
-        r->frame = frame[i];
-        if (!verify_frame(r, e)) return false;
+        if (!verify_frame(r, frame[i], e)) return false;
     }
     return true;
 }
@@ -259,8 +328,8 @@ ErrorKind cmd_verify(const Settings *s, Error *e) {
         fflush(stdout);
         print_summary(&run);
     }
-    if (!run.worst && run.bad_frames) run.worst = ERR_CHECK;
-    arena_free(&run.arena);
+    if (!run.worst && run.bad_meshes) run.worst = ERR_CHECK;
+    for (int k = 0; k < FRAMES_KEPT; k++) arena_free(&run.kept[k].arena);
     arena_free(&arena);
     return good ? run.worst : e->kind;
 }

@@ -9,9 +9,9 @@
 
 #include "files/listing.h"
 
-enum { DEPTH_MAX = 64 };
+enum { DEPTH_MAX = 64, STATS_LIMIT = 1 << 28 };
 
-typedef struct { Arena *arena; Reel *reel; int count, capacity; Error *e; } Finder;
+typedef struct { const Settings *settings; Arena *arena; Reel *reel; int count, capacity; Error *e; } Finder;
 
 static Reel *add_reel(Finder *f, const char *motion) {
     if (f->count == f->capacity) {
@@ -24,6 +24,24 @@ static Reel *add_reel(Finder *f, const char *motion) {
     }
     f->reel[f->count] = (Reel){.motion = motion};
     return &f->reel[f->count++];
+}
+
+/* Frames a second, from the first and the last row of stats.csv: its first columns are frame and
+   time. 0 where there is no such file, or only one frame in it. */
+static double find_rate(Finder *f, const char *folder) {
+    Error e = {0};
+    Text text;
+    double frame[2] = {0, 0}, time[2] = {0, 0};
+    const char *path = listing_path(folder, "stats.csv", f->arena, &e);
+    if (!path || !text_read(path, STATS_LIMIT, f->arena, &text, &e)) return 0;
+    const char *end = text.data + text.size;
+    int rows = 0;
+    for (const char *line = text.data; line < end; line += strcspn(line, "\n"), line += line < end) {
+        const char *comma = text_number(line, end, &frame[rows > 0]);
+        if (!comma || *comma != ',' || !text_number(comma + 1, end, &time[rows > 0])) continue;
+        rows++;
+    }
+    return rows > 1 && time[1] > time[0] && frame[1] > frame[0] ? (frame[1] - frame[0]) / (time[1] - time[0]) : 0;
 }
 
 /* The sequences of a folder as a reel, if it holds any. */
@@ -45,6 +63,7 @@ static bool add_folder(Finder *f, const char *folder, const char *motion) {
     for (int i = body; i + 1 < n; i++) found[i] = found[i + 1];
     reel->garment = found;
     reel->ngarments = n - 1;
+    if (f->settings->acceleration) reel->rate = find_rate(f, folder);
     return true;
 }
 
@@ -63,7 +82,8 @@ static bool search_folder(Finder *f, const char *folder, const char *motion, int
     return true;
 }
 
-static bool add_patterns(Finder *f, const Settings *s) {
+static bool add_patterns(Finder *f) {
+    const Settings *s = f->settings;
     Reel *reel = add_reel(f, "");
     if (!reel) return false;
     reel->ngarments = s->garments.count;
@@ -87,8 +107,8 @@ static bool check_needed(const Settings *s, Error *e) {
 }
 
 bool reels_find(const Settings *s, Arena *arena, Reel **out, int *count, Error *e) {
-    Finder f = {.arena = arena, .e = e};
-    bool good = check_needed(s, e) && (!s->body || add_patterns(&f, s));
+    Finder f = {.settings = s, .arena = arena, .e = e};
+    bool good = check_needed(s, e) && (!s->body || add_patterns(&f));
     for (int i = 0; good && i < s->inputs.count; i++) {
         int before = f.count;
         const char *folder = s->inputs.item[i];
