@@ -26,6 +26,11 @@ static bool folder_of(const Settings *s, const ComparePair *pair, int count, cha
     return n < OUTPUT_PATH_MAX || error_set(e, ERR_OUTPUT, "the name of the folder for '%s' is too long", pair->motion);
 }
 
+/* Has this been said of the motion with its garment before? */
+static bool is_said(const ComparePair *pair, int k, int ngarments) {
+    return k % ngarments > 0 && pair[k - 1].error.kind && strcmp(pair[k - 1].error.text, pair[k].error.text) == 0;
+}
+
 static void compare_pairs(const Wardrobe *w, const Input *input, ComparePair *pair, int count, Error *e) {
     const Settings *s = w->settings;
     Arena arena = {0};
@@ -47,7 +52,8 @@ static void compare_pairs(const Wardrobe *w, const Input *input, ComparePair *pa
             compare_run(w, k % w->ngarments, &input[k / w->ngarments], folder, &arena, &obj, notes, p);
         progress_hide(&progress);
         if (!s->quiet && k % w->ngarments == 0) notes_print(notes, input[k / w->ngarments].path, stderr);
-        if (p->error.kind && p->error.kind != ERR_INTERRUPTED) error_print(&p->error, stderr);
+        if (p->error.kind && p->error.kind != ERR_INTERRUPTED && !is_said(pair, k, w->ngarments))
+            error_print(&p->error, stderr);
         progress.done++;
         progress.failed += p->error.kind != ERR_NONE;
         progress.finished++;
