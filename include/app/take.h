@@ -3,6 +3,7 @@
 #ifndef APP_TAKE_H
 #define APP_TAKE_H
 
+#include "app/jumps.h"
 #include "app/settings.h"
 #include "figure/figure.h"
 
@@ -16,6 +17,13 @@ typedef struct {
 
 typedef struct Take Take;
 
+/* How many frames the whole motion has at that rate; 0: its own. */
+int take_length(const Motion *m, double rate);
+
+/* The span with its gaps filled, 1 <= first, last <= length, 1 <= step. ERR_USAGE where it begins
+   behind the motion's end. */
+MUST_CHECK bool take_span(const Motion *m, const FrameSpan *span, double rate, FrameSpan *out, Error *e);
+
 /* rate 0: the motion's own. ERR_USAGE for a span that holds no frame. Memory from arena, as
    much for a long motion as for a short one. */
 MUST_CHECK bool take_open(const Motion *m, const Figure *figure, const FrameSpan *span, double rate, Arena *arena,
@@ -28,7 +36,11 @@ int take_count(const Take *t);
 /* The next frame. False at the end (no error) or with an error; check e->kind. */
 bool take_next(Take *t, TakeFrame *out, Error *e);
 
-/* The jumps that were passed so far, as warnings. */
+/* The jumps that were passed so far, or since they were forgotten. */
+Jumps take_jumps(const Take *t);
+void take_forget_jumps(Take *t);
+
+/* The same as warnings. */
 void take_notes(const Take *t, Notes *notes);
 
 #endif

@@ -48,6 +48,8 @@ typedef struct { Output out; StatsTable table; bool times; } StatsFile;
 MUST_CHECK bool stats_open(StatsFile *f, const char *path, StatsTable table, bool times, Error *e);
 MUST_CHECK bool stats_add(StatsFile *f, const StatsRow *row, Error *e);
 MUST_CHECK bool stats_add_summary(StatsFile *f, const SummaryRow *row, Error *e);
+/* Lines that were written before, or a comment, as they stand. */
+MUST_CHECK bool stats_add_text(StatsFile *f, const char *lines, Error *e);
 MUST_CHECK bool stats_close(StatsFile *f, Error *e);
 void stats_abandon(StatsFile *f);
 

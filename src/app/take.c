@@ -29,16 +29,10 @@ static const double LONE_FACTOR = 4, LONE_STEP = 0.05;
    source, as a part of its time, is that frame and no mixture. */
 static const double ROUNDING = 1e-5;
 
-enum { LONE_LOOK = 8, JUMPS_KEPT = 4 };
+enum { LONE_LOOK = 8 };
 
 /* A source frame: the joints in the file's units and axes, and the figure's pose. */
 typedef struct { int frame; Rigid *world; Pose pose; } Sample;
-
-/* What lies between two neighbouring frames. */
-typedef enum { STEP_PLAIN, STEP_FLIP, STEP_JUMP } Step;
-
-/* Neighbouring frames first..last, from 1, each that far (in heights) from the one before. */
-typedef struct { int first, last; double width; Step kind; } Jump;
 
 struct Take {
     const Motion *motion;
@@ -54,8 +48,7 @@ struct Take {
     Rigid *between;            /* joints of a resampled frame */
     bool lone_first;
     double last_time;
-    int njumps;
-    Jump jump[JUMPS_KEPT];
+    Jumps jumps;
 };
 
 static bool load(Take *t, Sample *s, int frame, Error *e) {
@@ -109,16 +102,6 @@ static Step judge(const Take *t, double width) {
     return is_fast ? STEP_FLIP : STEP_PLAIN;
 }
 
-static void keep_jump(Take *t, int frame, double width, Step kind) {
-    Jump *last = t->njumps && t->njumps <= JUMPS_KEPT ? &t->jump[t->njumps - 1] : NULL;
-    if (last && last->last == frame - 1 && last->kind == kind) {
-        last->last = frame;
-        last->width = fmax(last->width, width);
-    } else if (t->njumps++ < JUMPS_KEPT) {
-        t->jump[t->njumps - 1] = (Jump){frame, frame, width, kind};
-    }
-}
-
 /* Moves on and looks at the step inside the window. */
 static bool advance(Take *t, Error *e) {
     if (!shift(t, e)) return false;
@@ -126,31 +109,34 @@ static bool advance(Take *t, Error *e) {
     Step kind = judge(t, width);
     t->passed = t->passed || t->within;
     t->within = kind == STEP_JUMP;
-    if (kind != STEP_PLAIN) keep_jump(t, t->ahead.frame + 1, width, kind);
+    if (kind != STEP_PLAIN) jumps_add(&t->jumps, t->ahead.frame + 1, width, kind);
     return true;
 }
 
 /* Because of the rounding a hundredth of the last frame may be missing. */
-static int count_frames(const Motion *m, double rate) {
+int take_length(const Motion *m, double rate) {
     if (rate <= 0) return m->nframes;
     double n = floor((m->nframes - 1) * m->frame_time * rate + 0.01) + 1;
     return n < 2e9 ? (int)n : 2000000000;
 }
 
+bool take_span(const Motion *m, const FrameSpan *span, double rate, FrameSpan *out, Error *e) {
+    int total = take_length(m, rate);
+    out->first = span->first ? span->first : 1;
+    out->last = span->last && span->last < total ? span->last : total;
+    out->step = span->step ? span->step : 1;
+    return out->first <= total || error_set(e, ERR_USAGE, "'--frames' begins at %d, but '%s' has %d frame%s", out->first,
+                                            m->path, total, total == 1 ? "" : "s");
+}
+
 bool take_open(const Motion *m, const Figure *figure, const FrameSpan *span, double rate, Arena *arena, Take **out,
                Error *e) {
     const Skeleton *s = &m->skeleton;
+    FrameSpan all;
     Take *t = ARENA_NEW(arena, Take, 1, e);
     *out = t;
-    if (!t) return false;
-    int total = count_frames(m, rate);
-    *t = (Take){.motion = m, .figure = figure, .rate = rate};
-    t->number = span->first ? span->first : 1;
-    t->last = span->last && span->last < total ? span->last : total;
-    t->step = span->step ? span->step : 1;
-    if (t->number > total)
-        return error_set(e, ERR_USAGE, "'--frames' begins at %d, but '%s' has %d frame%s", t->number, m->path, total,
-                         total == 1 ? "" : "s");
+    if (!t || !take_span(m, span, rate, &all, e)) return false;
+    *t = (Take){.motion = m, .figure = figure, .rate = rate, .number = all.first, .last = all.last, .step = all.step};
     t->row = ARENA_NEW(arena, double, s->nchannels, e);
     t->behind.world = ARENA_NEW(arena, Rigid, s->njoints, e);
     t->ahead.world = ARENA_NEW(arena, Rigid, s->njoints, e);
@@ -235,24 +221,8 @@ bool take_next(Take *t, TakeFrame *out, Error *e) {
     return good;
 }
 
-static void note_jump(const Jump *j, Place place, Notes *notes) {
-    char frames[48];
-    if (j->first == j->last) snprintf(frames, sizeof frames, "frame %d", j->first);
-    else snprintf(frames, sizeof frames, "frames %d to %d", j->first, j->last);
-    if (j->kind == STEP_FLIP)
-        notes_add(notes, place, "a limb flips by up to %.2f heights a frame at %s", j->width, frames);
-    else if (j->first == 2 && j->last == 2)
-        notes_add(notes, place, "frame 1 stands apart from the rest; cloth starts afresh at frame 2");
-    else if (j->first == 2)
-        notes_add(notes, place, "the first %d frames stand apart from the rest; cloth starts afresh up to frame %d",
-                  j->last - 1, j->last);
-    else
-        notes_add(notes, place, "the figure jumps by up to %.2f heights a frame at %s; cloth starts afresh", j->width,
-                  frames);
-}
+Jumps take_jumps(const Take *t) { return t->jumps; }
 
-void take_notes(const Take *t, Notes *notes) {
-    Place place = {.file = t->motion->path};
-    for (int i = 0; i < t->njumps && i < JUMPS_KEPT; i++) note_jump(&t->jump[i], place, notes);
-    if (t->njumps > JUMPS_KEPT) notes_add(notes, place, "it flips or jumps in %d more places", t->njumps - JUMPS_KEPT);
-}
+void take_forget_jumps(Take *t) { t->jumps = (Jumps){0}; }
+
+void take_notes(const Take *t, Notes *notes) { jumps_notes(&t->jumps, t->motion->path, notes); }

@@ -200,6 +200,11 @@ bool stats_add_summary(StatsFile *f, const SummaryRow *row, Error *e) {
     return put_row(f, row, e);
 }
 
+bool stats_add_text(StatsFile *f, const char *lines, Error *e) {
+    fputs(lines, f->out.file);
+    return output_good(&f->out, e);
+}
+
 bool stats_close(StatsFile *f, Error *e) { return output_close(&f->out, e); }
 
 void stats_abandon(StatsFile *f) { output_abandon(&f->out); }

@@ -1,0 +1,26 @@
+/* Where a motion makes steps that no body makes, for the messages. */
+#ifndef APP_JUMPS_H
+#define APP_JUMPS_H
+
+#include "base/error.h"
+
+/* What lies between two neighbouring frames. */
+typedef enum { STEP_PLAIN, STEP_FLIP, STEP_JUMP } Step;
+
+/* Neighbouring frames first..last, from 1, each that far (in heights) from the one before. */
+typedef struct { int first, last; double width; Step kind; } Jump;
+
+/* The first few in the order of the frames; `count` goes on counting. Clear with {0}. */
+enum { JUMPS_KEPT = 4 };
+typedef struct { int count; Jump jump[JUMPS_KEPT]; } Jumps;
+
+/* A step onto `frame`. Neighbours of one kind become one jump. */
+void jumps_add(Jumps *j, int frame, double width, Step kind);
+
+/* Appends those of the frames that follow. */
+void jumps_append(Jumps *j, const Jumps *later);
+
+/* As warnings about the motion `path`. */
+void jumps_notes(const Jumps *j, const char *path, Notes *notes);
+
+#endif
