@@ -12,7 +12,7 @@ column() { # column NAME FILE
         { for (i = 1; i <= NF; i++) if ($i == name) at = i }' "$2"
 }
 joined() { column "$@" | tr '\n' ' '; }
-list() { (cd "$1" && find . -type f | sort | tr '\n' ' '); }
+list() { (cd "$1" && find . -type f ! -name .done | sort | tr '\n' ' '); }
 count() { find "$1" -type f -name "$2" | wc -l | tr -d ' '; }
 
 # Layout
@@ -49,7 +49,7 @@ is 'a last frame behind the end is the end' "$(joined frame late/paper-walk/stat
 dress "$walk" -g "$skirt" -o one --frames 7
 is '--frames 7 is that frame' "$(column frame one/paper-walk/stats.csv)" 7
 dress "$walk" -g "$skirt" -o rate66 --rate 66
-ok 'resampled at its own rate it shows the same' diff -r -x '*.csv' full rate66
+ok 'resampled at its own rate it shows the same' diff -r -x '*.csv' -x .done full rate66
 dress "$walk" -g "$skirt" -o rate33 --rate 33
 is 'half the rate: half the frames' "$(count rate33 'body.*.obj')" 36
 same 'its frame 10 is frame 19' rate33/paper-walk/body.0010.obj full/paper-walk/body.0019.obj

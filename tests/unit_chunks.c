@@ -10,7 +10,8 @@ static bool is_covered(const FrameSpan *span, const Chunks *c) {
     int next = span->first, most = chunks_most(c);
     for (int i = 0; i < c->count; i++) {
         Chunk chunk = chunks_get(c, i);
-        if (chunk.count > most || (i == 0 && (chunk.own != span->first || chunk.span.first != span->first))) return false;
+        if (chunk.count > most) return false;
+        if (i == 0 && (chunk.own != span->first || chunk.span.first != span->first)) return false;
         if (chunk.count == 0) continue;
         if (chunk.own != next || (chunk.own - chunk.span.first) % span->step) return false;
         if (i > 0 && (chunk.span.first >= chunk.own || chunk.own - chunk.span.first >= c->warm_up + span->step))

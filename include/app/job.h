@@ -1,13 +1,11 @@
-/* One motion with its garments, from end to end. */
+/* One motion with its garments, from end to end, on as many threads as there are. */
 #ifndef APP_JOB_H
 #define APP_JOB_H
 
-#include "app/inputs.h"
-#include "app/wardrobe.h"
-#include "files/obj.h"
-#include "files/stats.h"
+#include "app/lane.h"
+#include "app/record.h"
 
-/* Where the time goes. OTHER is what is left of the whole. */
+/* Where the time goes. OTHER is what is left of the whole, warming up included. */
 typedef enum {
     STAGE_OPEN, STAGE_POSE, STAGE_GLOBAL, STAGE_TEST, STAGE_PUSH, STAGE_MESH, STAGE_WRITE, STAGE_OTHER, STAGE_COUNT
 } Stage;
@@ -21,19 +19,36 @@ typedef struct {
     SummaryRow *row;         /* ngarments of them, by the caller: sums over the frames so far */
 } JobResult;
 
-/* What one thread keeps from job to job. Clear with {0}; job_memory_free gives it back. */
-typedef struct { Arena arena; ObjWriter obj; } JobMemory;
-void job_memory_free(JobMemory *m);
+typedef struct {
+    const Wardrobe *wardrobe;
+    const Input *input;
+    RecordKey key;           /* of what is dressed */
+    int workers;             /* how many chunks may be under way at the same time */
+} JobOrder;
 
-/* Called after each frame: `done` of `total` frames stand on the disk. */
-typedef struct { void (*frame)(void *context, int done, int total); void *context; } JobWatch;
+typedef struct Job Job;
 
-/* Dresses one motion: reads it, finds its figure, fits body and garments, and writes frame by
-   frame. Nothing is written unless everything could be read and fitted. The caller resets
-   the arena. Looks at stop_requested after each frame (ERR_INTERRUPTED). With --strict ERR_CHECK
-   where something shows through. `about`, if not NULL, gets what --verbose prints. `out` must be
-   zero but for `row`. */
-void job_run(const Wardrobe *wardrobe, const Input *input, const JobWatch *watch, JobMemory *memory, Notes *notes,
-             FILE *about, JobResult *out);
+/* Reads the motion, finds its figure, fits body and garments, and only then makes the folder, or
+   clears it. `lane` is ready for the first chunk afterwards. Memory from arena, the job's own.
+   False with out->error; job_close must follow in any case but NULL. */
+MUST_CHECK bool job_open(const JobOrder *order, Lane *lane, Notes *notes, Arena *arena, JobResult *out, Job **job);
+
+/* The number of a chunk that nobody has taken, or -1: then none is to be had now, because all are
+   taken, or something failed, or too many wait for an earlier one. Any thread. */
+int job_take(Job *j);
+
+/* Dresses the chunk that was taken, on this thread's lane. What went wrong is in the result. Any
+   thread. Looks at stop_requested after each frame (ERR_INTERRUPTED). */
+void job_chunk(Job *j, int chunk, Lane *lane, const LaneWatch *watch);
+
+/* Is no chunk left or under way? True once only: whoever gets it closes the job. Any thread. */
+bool job_is_over(Job *j);
+
+/* Frames that will be written in all. */
+int job_frames(const Job *j);
+
+/* Finishes the statistics, brings everything to the disk and records it. With --strict ERR_CHECK
+   where something shows through. `about`, if not NULL, gets what --verbose prints. */
+void job_close(Job *j, FILE *about);
 
 #endif

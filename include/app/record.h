@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "files/stats.h"
 
-#define RECORD_NAME ".done.csv"
+#define RECORD_NAME ".done"
 
 /* Of what a motion was made. motion 0: cannot be known (standard input), never finished. */
 typedef struct { Digest options, motion; } RecordKey;

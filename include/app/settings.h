@@ -64,6 +64,9 @@ typedef struct {
     DrcOptions drc;             /* .speed counts from 1, as there */
     bool no_body, no_times, force;
 
+    bool resume;
+    int max_joints, max_frames; /* 0: those of motion_open */
+    int max_memory;             /* megabytes for each thread; 0 = no limit */
     int jobs;                   /* worker threads; 0 = one per processor */
     bool strict, quiet, verbose;
     int progress;               /* ProgressMode */

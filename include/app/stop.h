@@ -5,7 +5,8 @@
 #include <stdbool.h>
 
 /* From now on the first SIGINT or SIGTERM only sets a flag, a second one ends the program at
-   once; a closed pipe is an error of the write and no longer kills. */
+   once; a closed pipe, or a file that grows beyond its limit, is an error of the write and no
+   longer kills. */
 void stop_listen(void);
 
 /* Has somebody asked to stop? */

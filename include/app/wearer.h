@@ -18,6 +18,10 @@ MUST_CHECK bool wearer_open(const Wardrobe *wardrobe, const char *path, double u
                             Wearer *out, Error *e);
 void wearer_close(Wearer *w);
 
+/* The same motion, figure and body with a pose of its own, for another thread. Neither closed nor
+   used longer than `w`. Memory from arena. */
+MUST_CHECK bool wearer_share(const Wearer *w, double unit, Arena *arena, Wearer *out, Error *e);
+
 /* A dresser for each garment of the wardrobe. */
 MUST_CHECK bool wearer_put_on(const Wearer *w, const Wardrobe *wardrobe, const DressOptions *options, Arena *arena,
                               Dresser ***out, Error *e);

@@ -1,8 +1,10 @@
-/* Many motions at once, and nothing that depends on which of them is done first.
+/* Many motions on many threads, and nothing that depends on which of them is done first.
 
-   Workers take motions from one counter. What a motion has to say is kept as text until all
-   motions before it have spoken, and the summary's rows are written at the end from an array in
-   the order of the inputs; so a run on sixteen threads reads like a run on one. */
+   A worker that is free goes on with the motion it is at, else opens the next one, else helps with
+   the chunks of a motion that another has opened; so many short motions and one long one both
+   keep every worker busy. What a motion has to say is kept as text until all motions before it
+   have spoken, and the summary's rows are written at the end from an array in the order of the inputs;
+   so a run on sixteen threads reads like a run on one. */
 #include "app/batch.h"
 
 #include <pthread.h>
@@ -14,45 +16,68 @@
 #include "app/folder.h"
 #include "app/progress.h"
 #include "app/stop.h"
+#include "app/summary.h"
 #include "base/clock.h"
 #include "base/thread.h"
+#include "files/lock.h"
 
 /* A motion in the batch. */
 typedef struct {
     JobResult result;
-    double weight;     /* for the progress: its size */
-    bool exists;       /* its folder holds files of an earlier run */
-    bool done;
-    char *said;        /* messages, waiting for their turn; malloc */
+    double weight;        /* for the progress: its size */
+    int frames, ready;    /* that there will be; that are written */
+    bool exists;          /* its folder holds files of an earlier run */
+    bool is_done;
+    char *rows;           /* of the summary, where an earlier run has finished it; malloc */
+    char *said;           /* messages, waiting for their turn; malloc */
 } Item;
 
-typedef struct { JobMemory memory; Item *item; double part; } Worker; /* part: of the item that is done */
+/* A motion that is being dressed. There is always a free place for one more: every motion under
+   way has a worker at it. */
+typedef enum { SLOT_FREE, SLOT_BUSY, SLOT_OPEN } SlotState; /* BUSY: being opened or closed by one worker */
+typedef struct {
+    SlotState state;
+    Job *job;
+    Arena arena;
+    Notes *notes;
+    FILE *said;
+    size_t size;
+    int item;
+} Slot;
+
+typedef struct { Lane lane; Slot *slot; } Worker; /* slot: where it was last */
 
 typedef struct {
     const Wardrobe *wardrobe;
     const Input *input;
+    Digest options;
     Item *item;
     int count;
     Worker *worker;
+    Slot *slot;           /* as many as workers */
     int nworkers;
-    pthread_mutex_t lock;  /* guards what follows, and stderr */
+    pthread_mutex_t lock; /* guards what follows, the states of slots, and stderr */
+    pthread_cond_t change;
+    int next;             /* item that nobody has opened yet */
     Progress progress;
-    int spoken;            /* items whose messages are out */
+    int spoken;           /* items whose messages are out */
 } Batch;
 
-typedef struct { Batch *batch; Worker *worker; } Watcher;
+typedef struct { Batch *batch; Item *item; } Watcher;
 
 static double under_way(const Batch *b) {
     double sum = 0;
-    for (int i = 0; i < b->nworkers; i++)
-        if (b->worker[i].item) sum += b->worker[i].part * b->worker[i].item->weight;
+    for (int i = 0; i < b->nworkers; i++) {
+        const Item *item = b->slot[i].state != SLOT_FREE ? &b->item[b->slot[i].item] : NULL;
+        if (item && item->frames) sum += item->weight * item->ready / item->frames;
+    }
     return sum;
 }
 
-static void frame_done(void *context, int done, int total) {
+static void frame_done(void *context) {
     Watcher *w = context;
     pthread_mutex_lock(&w->batch->lock);
-    w->worker->part = (double)done / total;
+    w->item->ready++;
     w->batch->progress.frames++;
     progress_draw(&w->batch->progress, under_way(w->batch));
     pthread_mutex_unlock(&w->batch->lock);
@@ -60,7 +85,7 @@ static void frame_done(void *context, int done, int total) {
 
 /* Prints what may be printed by now: the messages of all items up to the first unfinished one. */
 static void speak(Batch *b) {
-    for (; b->spoken < b->count && b->item[b->spoken].done; b->spoken++) {
+    for (; b->spoken < b->count && b->item[b->spoken].is_done; b->spoken++) {
         Item *item = &b->item[b->spoken];
         if (item->said && item->said[0]) {
             progress_hide(&b->progress);
@@ -71,51 +96,138 @@ static void speak(Batch *b) {
     }
 }
 
-static void finish(Batch *b, Worker *w, Item *item) {
+/* The motion is over, one way or another: its messages, its memory, its place. */
+static void finish(Batch *b, Slot *slot) {
+    const Settings *s = b->wardrobe->settings;
+    Item *item = &b->item[slot->item];
+    ErrorKind kind = item->result.error.kind;
+    if (slot->job) job_close(slot->job, s->verbose ? slot->said : NULL);
+    kind = item->result.error.kind;
+    if (slot->said) {
+        if (slot->notes && !s->quiet) notes_print(slot->notes, b->input[slot->item].path, slot->said);
+        if (kind && kind != ERR_INTERRUPTED) error_print(&item->result.error, slot->said);
+        fclose(slot->said);
+    }
+    arena_reset(&slot->arena);
     pthread_mutex_lock(&b->lock);
-    w->item = NULL;
-    item->done = true;
+    slot->state = SLOT_FREE;
+    item->is_done = true;
     b->progress.done++;
-    b->progress.failed += item->result.error.kind > ERR_CHECK;
+    b->progress.failed += kind > ERR_CHECK;
     b->progress.finished += item->weight;
     speak(b);
     progress_draw(&b->progress, under_way(b));
+    pthread_cond_broadcast(&b->change);
     pthread_mutex_unlock(&b->lock);
 }
 
-/* Dresses an item; what there is to say about it goes to `said`. */
-static void dress(Batch *b, Worker *w, int i, FILE *said) {
+/* Has an earlier run finished the motion, from the same inputs with the same options? */
+static bool is_finished(Batch *b, Slot *slot, const RecordKey *key) {
     const Settings *s = b->wardrobe->settings;
-    Watcher watcher = {b, w};
-    JobWatch watch = {frame_done, &watcher};
-    Notes *notes = ARENA_NEW(&w->memory.arena, Notes, 1, &b->item[i].result.error);
-    if (!notes) return;
-    job_run(b->wardrobe, &b->input[i], &watch, &w->memory, notes, s->verbose ? said : NULL, &b->item[i].result);
-    if (said && !s->quiet) notes_print(notes, b->input[i].path, said);
+    Item *item = &b->item[slot->item];
+    JobResult *result = &item->result;
+    char folder[OUTPUT_PATH_MAX];
+    Record record;
+    int n = snprintf(folder, sizeof folder, "%s/%s", s->output, b->input[slot->item].name);
+    if (!s->resume || n >= (int)sizeof folder || !record_read(folder, key, &slot->arena, &record, &result->error))
+        return false;
+    item->rows = strdup(record.rows);
+    if (!item->rows) return !error_set(&result->error, ERR_INTERNAL, "out of memory for the summary");
+    if (s->strict && record.residual_frames > 0)
+        error_at(&result->error, ERR_CHECK, (Place){.file = b->input[slot->item].path},
+                 "the body shows through in %d of %d frames", record.residual_frames, record.frames);
+    return true;
 }
 
-static void run_item(void *context, int i, int worker) {
-    Batch *b = context;
-    Worker *w = &b->worker[worker];
-    Item *item = &b->item[i];
-    size_t size;
-    FILE *said = open_memstream(&item->said, &size);
-    pthread_mutex_lock(&b->lock);
-    w->item = item;
-    w->part = 0;
-    pthread_mutex_unlock(&b->lock);
-    if (stop_requested()) error_set(&item->result.error, ERR_INTERRUPTED, "interrupted");
-    else if (item->exists)
-        error_set(&item->result.error, ERR_OUTPUT, "'%s/%s' holds files of an earlier run; --force replaces them",
-                  b->wardrobe->settings->output, b->input[i].name);
-    else dress(b, w, i, said);
-    if (said) {
-        ErrorKind kind = item->result.error.kind;
-        if (kind && kind != ERR_INTERRUPTED) error_print(&item->result.error, said);
-        fclose(said);
+/* Opens the slot's motion. False: there is nothing to dress. */
+static bool open_job(Batch *b, Worker *w, Slot *slot) {
+    const Settings *s = b->wardrobe->settings;
+    const Input *input = &b->input[slot->item];
+    Item *item = &b->item[slot->item];
+    JobResult *result = &item->result;
+    JobOrder order = {.wardrobe = b->wardrobe, .input = input, .key = {.options = b->options}, .workers = b->nworkers};
+    slot->job = NULL;
+    slot->said = open_memstream(&item->said, &slot->size);
+    slot->notes = ARENA_NEW(&slot->arena, Notes, 1, &result->error);
+    if (!slot->notes) return false;
+    if (stop_requested()) return error_set(&result->error, ERR_INTERRUPTED, "interrupted");
+    if (item->exists && !s->resume)
+        return error_set(&result->error, ERR_OUTPUT,
+                         "'%s/%s' holds files of an earlier run; --force replaces them, --resume goes on with them",
+                         s->output, input->name);
+    if (!input->is_empty && !record_motion(input, s, &order.key.motion, &(Error){0})) order.key.motion = 0;
+    if (is_finished(b, slot, &order.key) || result->error.kind) return false;
+    if (!job_open(&order, &w->lane, slot->notes, &slot->arena, result, &slot->job)) return false;
+    item->frames = job_frames(slot->job);
+    return true;
+}
+
+/* A free slot for the next item. */
+static Slot *start_item(Batch *b) {
+    for (int i = 0; b->next < b->count && i < b->nworkers; i++) {
+        if (b->slot[i].state != SLOT_FREE) continue;
+        b->slot[i].state = SLOT_BUSY;
+        b->slot[i].item = b->next++;
+        return &b->slot[i];
     }
-    arena_reset(&w->memory.arena);
-    finish(b, w, item);
+    return NULL;
+}
+
+/* Finds something for the worker: *chunk of slot->job, or -1 where the slot is to be opened.
+   NULL when all is done. */
+static Slot *next_task(Batch *b, Worker *w, int *chunk) {
+    Slot *found = NULL;
+    pthread_mutex_lock(&b->lock);
+    for (;;) {
+        bool any = false;
+        *chunk = -1;
+        if (w->slot && w->slot->state == SLOT_OPEN && (*chunk = job_take(w->slot->job)) >= 0) found = w->slot;
+        if (!found) found = start_item(b);
+        for (int i = 0; !found && i < b->nworkers; i++) {
+            any = any || b->slot[i].state != SLOT_FREE;
+            if (b->slot[i].state == SLOT_OPEN && (*chunk = job_take(b->slot[i].job)) >= 0) found = &b->slot[i];
+        }
+        if (found || !any) break;
+        pthread_cond_wait(&b->change, &b->lock);
+    }
+    pthread_mutex_unlock(&b->lock);
+    return w->slot = found;
+}
+
+/* From now on others may help. */
+static void show(Batch *b, Slot *slot) {
+    pthread_mutex_lock(&b->lock);
+    slot->state = SLOT_OPEN;
+    pthread_cond_broadcast(&b->change);
+    pthread_mutex_unlock(&b->lock);
+}
+
+/* A chunk is done. True: this worker has to close the slot's motion; by now that may be another
+   one, which is over as well. */
+static bool must_close(Batch *b, Slot *slot) {
+    pthread_mutex_lock(&b->lock);
+    bool is_over = slot->state == SLOT_OPEN && job_is_over(slot->job);
+    if (is_over) slot->state = SLOT_BUSY;
+    pthread_cond_broadcast(&b->change);
+    pthread_mutex_unlock(&b->lock);
+    return is_over;
+}
+
+static void work(void *context, int index, int thread) {
+    Batch *b = context;
+    Worker *w = &b->worker[index];
+    int chunk;
+    (void)thread;
+    for (Slot *slot; (slot = next_task(b, w, &chunk));) {
+        if (chunk < 0) {
+            if (open_job(b, w, slot)) show(b, slot);
+            else finish(b, slot);
+            continue;
+        }
+        Watcher watcher = {b, &b->item[slot->item]};
+        job_chunk(slot->job, chunk, &w->lane, &(LaneWatch){frame_done, &watcher});
+        if (must_close(b, slot)) finish(b, slot);
+    }
 }
 
 /* Looks, before anything is written, at what each motion would replace. Returns the weight of all. */
@@ -133,47 +245,30 @@ static double look_at_folders(Batch *b) {
     return weight;
 }
 
-/* Why a motion was not dressed, with its place; empty where it was. */
-static void give_reason(const Error *why, char *reason, size_t n) {
-    reason[0] = 0;
-    if (why->kind <= ERR_CHECK) return;
-    if (why->line) snprintf(reason, n, "%s:%d:%d: %s", why->file, why->line, why->column, why->text);
-    else snprintf(reason, n, "%s", why->text);
-}
-
-static const char *status_of(ErrorKind kind) {
-    if (kind <= ERR_CHECK) return "ok";
-    return kind == ERR_INPUT || kind == ERR_USAGE ? "refused" : "failed";
-}
-
-static bool add_rows(const Batch *b, StatsFile *f, int i, Error *e) {
-    const JobResult *result = &b->item[i].result;
-    char reason[720];
-    give_reason(&result->error, reason, sizeof reason);
-    for (int g = 0; g < b->wardrobe->ngarments; g++) {
-        SummaryRow row = result->row[g];
-        row.motion = b->input[i].name;
-        row.garment = b->wardrobe->garment[g]->name;
-        row.status = status_of(result->error.kind);
-        row.reason = reason[0] ? reason : NULL;
-        if (!stats_add_summary(f, &row, e)) return false;
+/* A run that found its folders there already and dressed nothing has nothing to tell, and the
+   summary that is there is theirs. */
+static bool is_refused(const Batch *b) {
+    bool refused = false, dressed = false;
+    for (int i = 0; i < b->count; i++) {
+        refused = refused || (b->item[i].exists && !b->wardrobe->settings->resume);
+        dressed = dressed || b->item[i].result.error.kind <= ERR_CHECK;
     }
-    return true;
+    return refused && !dressed;
 }
 
 static bool write_summary(const Batch *b, Error *e) {
     char path[OUTPUT_PATH_MAX];
     const Settings *s = b->wardrobe->settings;
     StatsFile f;
-    if (snprintf(path, sizeof path, "%s/summary.csv", s->output) >= (int)sizeof path)
-        return error_set(e, ERR_OUTPUT, "the name of the output folder is too long");
-    if (!output_folder(s->output, e) || !stats_open(&f, path, TABLE_SUMMARY, !s->no_times, e)) return false;
+    if (is_refused(b)) return true;
+    if (!summary_path(s, path, e) || !stats_open(&f, path, TABLE_SUMMARY, !s->no_times, e)) return false;
     for (int i = 0; i < b->count; i++) {
-        if (add_rows(b, &f, i, e)) continue;
+        const Item *item = &b->item[i];
+        if (summary_add_motion(&f, b->wardrobe, &b->input[i], &item->result, item->rows, e)) continue;
         stats_abandon(&f);
         return false;
     }
-    return stats_close(&f, e);
+    return stats_close(&f, e) && sync_folder(s->output, e);
 }
 
 static void print_stages(const Batch *b, double elapsed) {
@@ -197,48 +292,79 @@ static void print_bytes(double bytes) {
 
 static void print_end(const Batch *b) {
     long long frames = 0, residual = 0, bytes = 0;
-    int done = 0;
+    int done = 0, before = 0;
     double elapsed = clock_seconds() - b->progress.started;
     for (int i = 0; i < b->count; i++) {
         const JobResult *r = &b->item[i].result;
         done += r->error.kind <= ERR_CHECK;
+        before += b->item[i].rows != NULL;
         frames += r->frames;
         residual += r->residual_frames;
         bytes += r->bytes;
     }
     if (b->wardrobe->settings->verbose) print_stages(b, elapsed);
-    fprintf(stderr, "%d of %d motion%s dressed, %lld frame%s, %lld with residuals, ", done, b->count,
-            b->count == 1 ? "" : "s", frames, frames == 1 ? "" : "s", residual);
+    fprintf(stderr, "%d of %d motion%s dressed", done, b->count, b->count == 1 ? "" : "s");
+    if (before) fprintf(stderr, " (%d before)", before);
+    fprintf(stderr, ", %lld frame%s, %lld with residuals, ", frames, frames == 1 ? "" : "s", residual);
     print_bytes((double)bytes);
     fprintf(stderr, " in %.1f s (%.0f frames/s)\n", elapsed, elapsed > 0 ? (double)frames / elapsed : 0);
 }
 
 static bool prepare(Batch *b, Arena *arena, Error *e) {
     const Settings *s = b->wardrobe->settings;
-    int wanted = s->jobs ? s->jobs : thread_count();
-    b->nworkers = wanted < b->count ? wanted : b->count;
+    b->nworkers = s->jobs ? s->jobs : thread_count();
     b->item = ARENA_NEW(arena, Item, b->count, e);
     b->worker = ARENA_NEW(arena, Worker, b->nworkers, e);
+    b->slot = ARENA_NEW(arena, Slot, b->nworkers, e);
     SummaryRow *rows = ARENA_NEW(arena, SummaryRow, (size_t)b->count * (size_t)b->wardrobe->ngarments, e);
-    if (!b->item || !b->worker || !rows) return false;
+    if (!b->item || !b->worker || !b->slot || !rows || !record_options(s, &b->options, e)) return false;
     for (int i = 0; i < b->count; i++) b->item[i].result.row = rows + (size_t)i * (size_t)b->wardrobe->ngarments;
+    for (int i = 0; i < b->nworkers; i++)
+        b->worker[i].lane.arena.limit = b->slot[i].arena.limit = (size_t)s->max_memory << 20;
     bool visible = s->progress == PROGRESS_ALWAYS;
     if (s->progress == PROGRESS_AUTO) visible = !s->quiet && isatty(STDERR_FILENO);
     progress_start(&b->progress, visible, b->count, look_at_folders(b));
     return true;
 }
 
+static void clean_up(Batch *b) {
+    for (int i = 0; i < b->nworkers && b->worker && b->slot; i++) {
+        lane_free(&b->worker[i].lane);
+        arena_free(&b->slot[i].arena);
+    }
+    for (int i = 0; i < b->count && b->item; i++) free(b->item[i].rows);
+    pthread_cond_destroy(&b->change);
+    pthread_mutex_destroy(&b->lock);
+}
+
+/* One run at a time may write a summary: the file beside it is locked as long as the run lasts. */
+static bool lock_summary(const Settings *s, Lock *lock, Error *e) {
+    char path[OUTPUT_PATH_MAX], name[OUTPUT_PATH_MAX + 8];
+    if (!summary_path(s, path, e) || !output_folder(s->output, e)) return false;
+    char *slash = strrchr(path, '/');
+    *slash = 0;
+    snprintf(name, sizeof name, "%s/.%s.lock", path, slash + 1);
+    return lock_file(lock, name, e);
+}
+
 ErrorKind batch_run(const Wardrobe *wardrobe, const Input *input, int count, Arena *arena, Error *e) {
-    Batch b = {.wardrobe = wardrobe, .input = input, .count = count, .lock = PTHREAD_MUTEX_INITIALIZER};
+    Batch b = {.wardrobe = wardrobe, .input = input, .count = count};
+    Lock lock = {0};
     ErrorKind worst = ERR_NONE;
-    if (!prepare(&b, arena, e)) return e->kind;
-    bool good = thread_each(count, b.nworkers, run_item, &b, e);
+    pthread_mutex_init(&b.lock, NULL);
+    pthread_cond_init(&b.change, NULL);
+    bool good = lock_summary(wardrobe->settings, &lock, e) && prepare(&b, arena, e) &&
+                thread_each(b.nworkers, b.nworkers, work, &b, e);
     progress_hide(&b.progress);
-    for (int i = 0; i < b.nworkers; i++) job_memory_free(&b.worker[i].memory);
     if (!good || !write_summary(&b, e)) worst = e->kind;
-    if (!wardrobe->settings->quiet) print_end(&b);
-    for (int i = 0; i < count; i++)
+    if (good && !wardrobe->settings->quiet) print_end(&b);
+    for (int i = 0; good && i < count; i++)
         if (b.item[i].result.error.kind > worst) worst = b.item[i].result.error.kind;
-    if (stop_requested()) error_set(e, worst = ERR_INTERRUPTED, "interrupted; what is written is whole");
+    if (stop_requested()) {
+        worst = ERR_INTERRUPTED;
+        error_set(e, worst, "interrupted; what is written is whole, and the same command with --resume goes on");
+    }
+    clean_up(&b);
+    lock_release(&lock);
     return worst;
 }

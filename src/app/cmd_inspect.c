@@ -143,7 +143,8 @@ static bool inspect_figure(const Motion *m, const Settings *s, Arena *arena, Not
 }
 
 static bool inspect_motion(const char *path, const Settings *s, Arena *arena, Error *e) {
-    MotionOptions options = {.asf = s->asf, .fps = s->fps, .position = (PositionRule)s->position};
+    MotionOptions options = {.asf = s->asf, .fps = s->fps, .position = (PositionRule)s->position,
+                             .max_joints = s->max_joints, .max_frames = s->max_frames};
     Notes notes = {0};
     Motion motion = {0};
     bool good = motion_open(path, &options, arena, &notes, &motion, e);

@@ -1,4 +1,5 @@
-/* What is ours in a motion's folder goes by its name: only such files are ever removed. */
+/* What is ours in a motion's folder goes by its name: only such files are ever removed, and the
+   record first, for without its files it would lie. */
 #include "app/folder.h"
 
 #include <ctype.h>
@@ -8,6 +9,8 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "app/record.h"
 
 bool folder_has_files(const char *path) {
     DIR *folder = opendir(path);
@@ -27,6 +30,7 @@ static bool is_ours(const char *name) {
     size_t n = strlen(name), digits = 0;
     if (n > 4 && strcmp(name + n - 4, ".tmp") == 0) n -= 4;
     if (n == 9 && memcmp(name, "stats.csv", 9) == 0) return true;
+    if (n == strlen(RECORD_NAME) && memcmp(name, RECORD_NAME, n) == 0) return true;
     if (n < 10 || (memcmp(name + n - 4, ".obj", 4) != 0 && memcmp(name + n - 4, ".drc", 4) != 0)) return false;
     for (n -= 4; n > 0 && isdigit((unsigned char)name[n - 1]); n--) digits++;
     return digits >= 4 && n >= 2 && name[n - 1] == '.';
@@ -36,7 +40,8 @@ bool folder_clear(const char *path, Error *e) {
     DIR *folder = opendir(path);
     if (!folder && errno == ENOENT) return true;
     if (!folder) return error_set(e, ERR_OUTPUT, "cannot open the folder '%s': %s", path, strerror(errno));
-    bool good = true;
+    bool good = unlinkat(dirfd(folder), RECORD_NAME, 0) == 0 || errno == ENOENT ||
+                error_set(e, ERR_OUTPUT, "cannot remove '%s/" RECORD_NAME "': %s", path, strerror(errno));
     for (struct dirent *entry; good && (entry = readdir(folder));)
         if (is_ours(entry->d_name) && unlinkat(dirfd(folder), entry->d_name, 0) != 0 && errno != ENOENT)
             good = error_set(e, ERR_OUTPUT, "cannot remove '%s/%s': %s", path, entry->d_name, strerror(errno));

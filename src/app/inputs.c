@@ -14,6 +14,8 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "app/record.h"
+
 enum { DEPTH_MAX = 64, INPUTS_MAX = 10000000, PART_MAX = 120, PART_KEPT = 100 };
 
 /* How much of its path a motion's name has to show. */
@@ -154,7 +156,7 @@ static uint32_t hash(const char *s, size_t n) { /* FNV-1a */
 }
 
 char *inputs_clean(const char *part, size_t length, Arena *arena, Error *e) {
-    static const char *const ours[] = {".obj", ".drc", ".csv", ".tmp"};
+    static const char *const ours[] = {".obj", ".drc", ".csv", ".tmp", ".lock", RECORD_NAME};
     char *out = ARENA_NEW(arena, char, length + 16, e);
     if (!out) return NULL;
     size_t n = length;
@@ -168,11 +170,12 @@ char *inputs_clean(const char *part, size_t length, Arena *arena, Error *e) {
         n += (size_t)snprintf(out + n, 12, "~%08x", (unsigned)hash(part, length));
     }
     out[n] = 0;
-    for (size_t i = 0; i < sizeof ours / sizeof ours[0]; i++)
-        if (has_ending(out, ours[i])) { /* no folder may stand where a file of ours would */
-            memcpy(out + n, "_", 2);
-            break;
-        }
+    for (size_t i = 0, k; i < sizeof ours / sizeof ours[0]; i++) {
+        k = strlen(ours[i]);
+        if (n < k || strcasecmp(out + n - k, ours[i]) != 0) continue;
+        memcpy(out + n, "_", 2); /* no folder may stand where a file of ours would */
+        break;
+    }
     return out;
 }
 

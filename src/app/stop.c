@@ -21,6 +21,7 @@ void stop_listen(void) {
     struct sigaction ignore = {.sa_handler = SIG_IGN};
     sigemptyset(&ignore.sa_mask);
     sigaction(SIGPIPE, &ignore, NULL);
+    sigaction(SIGXFSZ, &ignore, NULL);
 }
 
 bool stop_requested(void) { return atomic_load(&requested) != 0; }

@@ -125,8 +125,9 @@ bool take_span(const Motion *m, const FrameSpan *span, double rate, FrameSpan *o
     out->first = span->first ? span->first : 1;
     out->last = span->last && span->last < total ? span->last : total;
     out->step = span->step ? span->step : 1;
-    return out->first <= total || error_set(e, ERR_USAGE, "'--frames' begins at %d, but '%s' has %d frame%s", out->first,
-                                            m->path, total, total == 1 ? "" : "s");
+    if (out->first <= total) return true;
+    return error_set(e, ERR_USAGE, "'--frames' begins at %d, but '%s' has %d frame%s", out->first, m->path, total,
+                     total == 1 ? "" : "s");
 }
 
 bool take_open(const Motion *m, const Figure *figure, const FrameSpan *span, double rate, Arena *arena, Take **out,

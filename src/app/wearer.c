@@ -5,7 +5,8 @@
 bool wearer_open(const Wardrobe *wardrobe, const char *path, double unit, Arena *arena, Notes *notes, Wearer *out,
                  Error *e) {
     const Settings *s = wardrobe->settings;
-    MotionOptions options = {.asf = s->asf, .fps = s->fps, .position = (PositionRule)s->position};
+    MotionOptions options = {.asf = s->asf, .fps = s->fps, .position = (PositionRule)s->position,
+                             .max_joints = s->max_joints, .max_frames = s->max_frames};
     FigureOptions figure = {s->unit, s->scale, (char)s->up};
     Roles roles;
     return motion_open(path, &options, arena, notes, &out->motion, e) &&
@@ -13,6 +14,11 @@ bool wearer_open(const Wardrobe *wardrobe, const char *path, double unit, Arena 
            figure_build(&out->motion, &roles, &figure, arena, notes, &out->figure, e) &&
            body_fit(&wardrobe->body, &out->figure, s->body_detail ? s->body_detail : 16, arena, &out->body, e) &&
            body_frame_init(&out->posed, &out->body, unit, arena, e);
+}
+
+bool wearer_share(const Wearer *w, double unit, Arena *arena, Wearer *out, Error *e) {
+    *out = *w;
+    return body_frame_init(&out->posed, &out->body, unit, arena, e);
 }
 
 void wearer_close(Wearer *w) { motion_close(&w->motion); }

@@ -56,7 +56,7 @@ bool digest_file(Digest *d, const char *path, Error *e) {
     }
     int code = errno;
     if (fd >= 0) close(fd);
-    if (n < 0) return error_set(e, ERR_INPUT, "cannot read '%s': %s", path, strerror(code));
+    if (n < 0) return error_set(e, ERR_INPUT, "cannot %s '%s': %s", fd < 0 ? "open" : "read", path, strerror(code));
     digest_add(d, &(unsigned char[8]){(unsigned char)total, (unsigned char)(total >> 8), (unsigned char)(total >> 16),
                                       (unsigned char)(total >> 24), (unsigned char)(total >> 32)}, 8);
     return true;

@@ -1,0 +1,48 @@
+/* What one thread needs to dress the frames of a chunk: a pose of its own, dressers, memory. */
+#ifndef APP_LANE_H
+#define APP_LANE_H
+
+#include "app/chunks.h"
+#include "app/wearer.h"
+#include "files/obj.h"
+#include "files/stats.h"
+
+/* Clear with {0} once, lane_free at the end; in between it serves any motion. */
+typedef struct {
+    Arena arena;
+    ObjWriter obj;
+    Wearer wearer;       /* motion, figure and body are the job's, the pose is its own */
+    Dresser **dresser;   /* one for each garment */
+    bool is_fresh;       /* opened, and nothing dressed yet */
+} Lane;
+
+/* What a chunk gives, in the order of its frames. Arrays by the job. */
+typedef struct {
+    StatsRow *row;         /* nrows of them */
+    int nrows, frames, residual_frames;
+    long long body_bytes, *bytes; /* written for the body, for each garment */
+    double *seconds;       /* for each garment */
+    Jumps jumps;
+    Error error;
+} ChunkResult;
+
+/* What the chunks of a motion share; const while they run. */
+typedef struct {
+    const Wardrobe *wardrobe;
+    const Wearer *wearer;
+    const char *folder;    /* where the meshes go */
+    double unit;           /* output units per metre */
+} LaneWork;
+
+/* Called after each frame that was written. */
+typedef struct { void (*frame)(void *context); void *context; } LaneWatch;
+
+void lane_free(Lane *lane);
+
+/* Makes the lane ready for a motion. What was in it is forgotten. */
+MUST_CHECK bool lane_open(Lane *lane, const LaneWork *work, Error *e);
+
+/* Dresses a chunk from a state that is the same whatever was dressed before. */
+void lane_run(Lane *lane, const LaneWork *work, const Chunk *chunk, const LaneWatch *watch, ChunkResult *out);
+
+#endif

@@ -1,0 +1,143 @@
+/* The frames of a chunk, each on its way from a row of numbers to files:
+
+       row -> pose -> body mesh -> each garment -> OBJ, Draco, a row of statistics
+
+   Read lane_run from its end upwards. Everything that a frame needs is taken before the first
+   one; memory does not grow with the number of frames. A chunk begins with fresh dressers, for then it
+   cannot know what its thread has dressed before. */
+#include "app/lane.h"
+
+#include "app/stop.h"
+#include "base/clock.h"
+
+typedef struct {
+    Lane *lane;
+    const LaneWork *work;
+    const Settings *settings;
+    const Chunk *chunk;
+    ChunkResult *result;
+} Run;
+
+/* Seconds since *since, which moves on to now. */
+static double lap(double *since) {
+    double now = clock_seconds(), seconds = now - *since;
+    *since = now;
+    return seconds;
+}
+
+void lane_free(Lane *lane) {
+    arena_free(&lane->arena);
+    obj_writer_free(&lane->obj);
+}
+
+bool lane_open(Lane *lane, const LaneWork *work, Error *e) {
+    const Settings *s = work->wardrobe->settings;
+    DressOptions options = {.split = (SplitRule)s->split, .detail = s->detail, .depth = s->depth};
+    options.method = (Method)s->method;
+    options.fixed_topology = s->fixed != 0;
+    lane->obj.metre = work->unit;
+    arena_reset(&lane->arena);
+    lane->is_fresh = wearer_share(work->wearer, work->unit, &lane->arena, &lane->wearer, e) &&
+                     wearer_put_on(&lane->wearer, work->wardrobe, &options, &lane->arena, &lane->dresser, e);
+    return lane->is_fresh;
+}
+
+/* The mesh is in output units already: what was tested is what is written. */
+static bool write_mesh(Run *r, const char *name, int frame, const Mesh *mesh, long long *bytes, Error *e) {
+    char path[OUTPUT_PATH_MAX + 128];
+    const Settings *s = r->settings;
+    unsigned formats = s->formats ? s->formats : FORMAT_OBJ;
+    long long n = 0;
+    if (formats & FORMAT_OBJ) {
+        snprintf(path, sizeof path, "%s/%s.%04d.obj", r->work->folder, name, frame);
+        if (!obj_write(&r->lane->obj, path, mesh, 1, &n, e)) return false;
+        *bytes += n;
+    }
+    if (formats & FORMAT_DRC) {
+        snprintf(path, sizeof path, "%s/%s.%04d.drc", r->work->folder, name, frame);
+        if (!drc_write(path, mesh, 1, &s->drc, &n, e)) return false;
+        *bytes += n;
+    }
+    return true;
+}
+
+static bool write_body(Run *r, int frame, Error *e) {
+    if (r->settings->no_body) return true;
+    Mesh mesh = wearer_skin(&r->lane->wearer);
+    return write_mesh(r, "body", frame, &mesh, &r->result->body_bytes, e);
+}
+
+/* pose_s and write_s of the row hold this garment's share of the body. */
+static bool dress_garment(Run *r, int g, const TakeFrame *frame, StatsRow *row, Error *e) {
+    Mesh mesh;
+    double start = clock_seconds(), since;
+    row->garment = r->work->wardrobe->garment[g]->name;
+    dresser_frame(r->lane->dresser[g], &r->lane->wearer.posed, frame->dt, frame->restart, &mesh, &row->stats);
+    since = clock_seconds();
+    if (!write_mesh(r, row->garment, frame->number, &mesh, &r->result->bytes[g], e)) return false;
+    row->write_s += lap(&since);
+    r->result->seconds[g] += since - start;
+    return true;
+}
+
+static bool dress_frame(Run *r, const TakeFrame *frame, double since, Error *e) {
+    int n = r->work->wardrobe->ngarments;
+    bool residual = false;
+    body_frame_pose(&r->lane->wearer.posed, &frame->pose);
+    double pose_s = lap(&since) / n;
+    if (!write_body(r, frame->number, e)) return false;
+    double body_s = lap(&since) / n;
+    for (int g = 0; g < n; g++) {
+        StatsRow *row = &r->result->row[r->result->nrows];
+        *row = (StatsRow){.frame = frame->number, .time = frame->time, .split = (SplitRule)r->settings->split,
+                          .pose_s = pose_s, .write_s = body_s};
+        row->method = (Method)r->settings->method;
+        if (!dress_garment(r, g, frame, row, e)) return false;
+        r->result->nrows++;
+        residual = residual || stats_has_residual(&row->stats);
+    }
+    r->result->frames++;
+    r->result->residual_frames += residual;
+    return true;
+}
+
+/* A frame in front of the chunk: only what the cloth carries on from it is wanted. */
+static void warm_up(Run *r, const TakeFrame *frame) {
+    Mesh mesh;
+    FrameStats stats;
+    body_frame_pose(&r->lane->wearer.posed, &frame->pose);
+    for (int g = 0; g < r->work->wardrobe->ngarments; g++)
+        dresser_frame(r->lane->dresser[g], &r->lane->wearer.posed, frame->dt, frame->restart, &mesh, &stats);
+}
+
+static bool dress_frames(Run *r, Take *take, const LaneWatch *watch, Error *e) {
+    TakeFrame frame;
+    int left = take_count(take);
+    for (double since = clock_seconds(); take_next(take, &frame, e); since = clock_seconds()) {
+        left--;
+        if (frame.number < r->chunk->own) {
+            warm_up(r, &frame);
+            take_forget_jumps(take); /* they are the chunk's before */
+        } else {
+            if (!dress_frame(r, &frame, since, e)) return false;
+            watch->frame(watch->context);
+        }
+        if (stop_requested() && left > 0) return error_set(e, ERR_INTERRUPTED, "interrupted");
+    }
+    return e->kind == ERR_NONE;
+}
+
+void lane_run(Lane *lane, const LaneWork *work, const Chunk *chunk, const LaneWatch *watch, ChunkResult *out) {
+    const Wearer *w = &lane->wearer;
+    const Settings *s = work->wardrobe->settings;
+    Run r = {.lane = lane, .work = work, .settings = s, .chunk = chunk, .result = out};
+    Error *e = &out->error;
+    Take *take = NULL;
+    if (!lane->is_fresh && !lane_open(lane, work, e)) return;
+    lane->is_fresh = false;
+    if (take_open(&w->motion, &w->figure, &chunk->span, s->rate, &lane->arena, &take, e)) {
+        dress_frames(&r, take, watch, e);
+        out->jumps = take_jumps(take);
+    }
+    take_close(take);
+}
