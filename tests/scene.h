@@ -1,0 +1,57 @@
+/* A shipped garment on the reference figure, for the unit programs of the dress floor. */
+#ifndef TESTS_SCENE_H
+#define TESTS_SCENE_H
+
+#include <stdlib.h>
+
+#include "dress/frame.h"
+#include "tap.h"
+
+typedef struct {
+    Arena arena;
+    Error error;
+    Figure figure;
+    Body body;
+    Garment *garment;
+    BodyFrame posed;
+} Scene;
+
+/* A test's own preparations must not fail. */
+static inline void need(const Scene *s, bool good) {
+    if (good) return;
+    error_print(&s->error, stderr);
+    exit(1);
+}
+
+static inline void scene_open(Scene *s, const char *garment) {
+    char path[128];
+    snprintf(path, sizeof path, "garments/%s.garment", garment);
+    *s = (Scene){.figure = figure_reference()};
+    s->garment = ARENA_NEW(&s->arena, Garment, 1, &s->error);
+    need(s, s->garment && garment_read(path, &s->arena, s->garment, &s->error));
+    need(s, body_fit(body_default(), &s->figure, 16, &s->arena, &s->body, &s->error));
+    need(s, body_frame_init(&s->posed, &s->body, 1, &s->arena, &s->error));
+}
+
+static inline Dresser *scene_dresser(Scene *s, DressOptions options) {
+    Dresser *d = NULL;
+    need(s, dresser_open(s->garment, &s->figure, &s->body, &options, &s->arena, &d, &s->error));
+    return d;
+}
+
+/* Turns a bone, and all that hang on it, about its start by `degrees` (forwards is positive). */
+static inline void scene_bend(const Scene *s, Pose *p, Role bone, Role last, double degrees) {
+    Mat3 turn = mat_axis_angle(vec(-1, 0, 0), degrees * PI / 180);
+    Vec3 pivot = rigid_apply(p->bone[bone], s->figure.start[bone]);
+    Rigid about = {turn, vec_sub(pivot, mat_apply(turn, pivot))};
+    for (int r = (int)bone; r <= (int)last; r++) p->bone[r] = rigid_mul(about, p->bone[r]);
+}
+
+/* A leg raised at the hip and bent at the knee, degrees. */
+static inline void scene_leg(const Scene *s, Pose *p, bool left, double hip, double knee) {
+    Role thigh = left ? ROLE_LEFT_THIGH : ROLE_RIGHT_THIGH;
+    scene_bend(s, p, thigh, (Role)(thigh + 3), hip);
+    scene_bend(s, p, (Role)(thigh + 1), (Role)(thigh + 3), -knee);
+}
+
+#endif
