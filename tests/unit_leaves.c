@@ -56,7 +56,7 @@ static Vec3 surface(const Push *p, const Patch *root, int patch, int i, int j) {
         int id[4];
         double weight[4];
         lattice_weights(l, level, patch, i, j, id, weight, NULL, NULL);
-        for (int k = 0; k < 4; k++) x = vec_mad(x, p->displacement[p->start[level] + id[k]], weight[k]);
+        for (int k = 0; k < 4; k++) x = vec_mad(x, p->field.displacement[p->field.start[level] + id[k]], weight[k]);
     }
     return x;
 }
@@ -81,7 +81,7 @@ static void leaves_are_the_surface(const char *name) {
     for (int level = 0; level <= lattice.depth; level++)
         for (int v = 0; v < lattice.level[level].count; v++)
             if (is_open(&leaves, level, v))
-                push.displacement[push.start[level] + v] = vec(random_unit(), random_unit(), random_unit());
+                push.field.displacement[push.field.start[level] + v] = vec(random_unit(), random_unit(), random_unit());
     double worst = 0;
     int n = 0, cells = 1 << lattice.depth;
     for (int p = 0; p < fit.npatches; p++)
@@ -89,7 +89,7 @@ static void leaves_are_the_surface(const char *name) {
             for (int y = 0; y < cells; y++) {
                 int level = leaf_at(&leaves, p, x, y), shift = lattice.depth - level;
                 if (level < 0) continue;
-                Patch leaf = push_leaf(&push, root, (LatticeCell){p, x >> shift, y >> shift}, level);
+                Patch leaf = field_leaf(&push.field, root, (LatticeCell){p, x >> shift, y >> shift}, level);
                 int size = lattice.side >> level, step = size / 4;
                 for (int i = 0; i <= size; i += step)
                     for (int j = 0; j <= size; j += step, n++) {

@@ -2,13 +2,13 @@
 #ifndef DRESS_PUSH_H
 #define DRESS_PUSH_H
 
-#include "dress/tessellate.h"
+#include "dress/field.h"
 
 /* A mesh vertex near the body, with the level vertices that move it. Private. */
 typedef struct {
     int vertex, n;
     unsigned near;                    /* parts (bit 1 << part) worth asking */
-    int id[4 * LATTICE_LEVELS];       /* into Push.displacement */
+    int id[4 * LATTICE_LEVELS];       /* into Field.displacement */
     double weight[4 * LATTICE_LEVELS], share[4 * LATTICE_LEVELS], norm2; /* share: weight x mobility */
     double spent, budget;             /* push issued in this frame, and its limit; metres */
     Vec3 net;                         /* their sum */
@@ -16,17 +16,13 @@ typedef struct {
     double slack;                     /* and how far it may go from there before that matters */
 } PushSample;
 
-/* The garment's displacement, carried from frame to frame, and the solver's memory. */
+/* The displacement and the solver's memory. */
 typedef struct {
     const Lattice *lattice;
-    double scale;                     /* lengths inside the method, relative to 1.70 m */
-    double cap;                       /* longest displacement of a level vertex, metres */
-    int start[LATTICE_LEVELS + 1];    /* level l's vertices are start[l]..start[l + 1) */
-    Vec3 *displacement;               /* per level vertex; world frame, metres */
-    bool *active;
-    Vec3 *offset;                     /* per lattice place: the last millimetres */
-    Vec3 *kept_displacement, *kept_offset, *kept_point; /* of the attempt before, see push_afresh */
-    Mat3 pelvis;                      /* of the frame that the displacement belongs to */
+    Field field;
+    Field kept;                       /* of the attempt before, see push_afresh */
+    Vec3 *kept_point;
+    bool *active;                     /* per level vertex: all cells round it are split to its level */
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
     double *clearance;                /* per mesh vertex: distance asked for */
     PushSample *sample;
@@ -41,10 +37,6 @@ typedef struct {
 } PushResult;
 
 MUST_CHECK bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e);
-
-/* Takes the displacement of the last frame along: turned with the pelvis, faded with time. What
-   is still felt keeps its cells split. restart: forget it. */
-void push_carry(Push *p, const BodyFrame *body, double dt, bool restart, Leaves *leaves);
 
 /* Evaluates the global shape from the root patches at the vertices of the sheet. */
 void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *sheet);
@@ -62,10 +54,6 @@ void push_rest(Push *p, const Sheet *sheet);
 bool push_raise(Push *p, int vertex, double by);
 void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
 
-/* The displaced patch over cell (a, b) of a level, a leaf or finer: the part of the root patch and
-   the field over it, which is bicubic there. Offsets are left out. */
-Patch push_leaf(const Push *p, const Patch *root, LatticeCell cell, int level);
-
 /* A carried displacement can hold a tangle that no sweep undoes. push_afresh keeps this attempt
    and forgets the displacement, so that push_start and push_solve make another from the global
    shape alone; push_back takes the kept attempt again. */
@@ -74,10 +62,6 @@ void push_back(Push *p);
 
 /* Fills what the solution amounts to: active, pinched, displacement. */
 void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
-
-/* Unit normals of the displaced patches at the mesh's vertices (analytic). Where offsets bend the
-   mesh away from its patches, the mean of the facets round the vertex, weighted by area. */
-void push_normals(const Push *p, const Patch *root, const Sheet *sheet, const Vec3 *position, Vec3 *normal);
 
 /* The distance that cloth keeps from the body, metres on a figure of 1.70 m. */
 #define PUSH_MARGIN 0.003

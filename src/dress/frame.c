@@ -184,7 +184,7 @@ static void set_groups(Dresser *d, const int *first_of_patch, Mesh *mesh) {
 static void fill_mesh(Dresser *d, Mesh *mesh) {
     const Sheet *s = &d->sheet;
     int n = d->lattice.side + 1;
-    push_normals(&d->push, d->root, s, d->position, d->normal);
+    field_normals(&d->push.field, d->root, s, d->position, d->normal);
     for (int v = 0; v < s->nvertices; v++) {
         int owner = d->lattice.owner[s->place[v]];
         d->u[v] = (double)(owner / n % n) / d->lattice.side;
@@ -267,7 +267,7 @@ void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, M
 
     start = clock_seconds();
     bool is_global = d->options.method == METHOD_GLOBAL;
-    push_carry(&d->push, body, dt, restart || is_global, &d->leaves);
+    field_carry(&d->push.field, body, dt, restart || is_global, &d->leaves);
     tessellate(&d->sheet, d->options.fixed_topology ? &d->grid : &d->leaves);
     stats->mesh_s = clock_seconds() - start;
 
@@ -317,7 +317,7 @@ int dresser_leaves(const Dresser *d, LeafKind kind, LeafPatch *out, int capacity
                 int level = leaf_at(leaves_of(d, kind), p, x, y), shift = depth - level;
                 if (level < 0 || n++ >= capacity) continue;
                 LatticeCell cell = {p, x >> shift, y >> shift};
-                out[n - 1] = (LeafPatch){push_leaf(&d->push, d->root, cell, level), p, level};
+                out[n - 1] = (LeafPatch){field_leaf(&d->push.field, d->root, cell, level), p, level};
             }
     return n;
 }

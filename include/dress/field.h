@@ -1,0 +1,50 @@
+/* The displacement field: what the body has pushed the cloth aside. See dress/lattice.h for its
+   levels and weights. World frame, metres. */
+#ifndef DRESS_FIELD_H
+#define DRESS_FIELD_H
+
+#include "dress/tessellate.h"
+
+typedef struct {
+    const Lattice *lattice;
+    double scale;                  /* lengths inside the method, relative to 1.70 m */
+    double cap;                    /* no vertex is moved farther, metres */
+    int start[LATTICE_LEVELS + 1]; /* level l's vertices are start[l]..start[l + 1) */
+    Vec3 *displacement;            /* per level vertex */
+    Vec3 *offset;                  /* per lattice place: the last millimetres of single vertices */
+    Mat3 pelvis;                   /* of the frame that the displacement belongs to */
+} Field;
+
+MUST_CHECK bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e);
+void field_forget(Field *f);
+
+/* Takes the displacement of the last frame along: turned with the pelvis, faded with time (dt
+   seconds). What is still felt keeps its cells split. restart: forget it. */
+void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leaves *leaves);
+
+/* Patch and lattice coordinates under which a place is evaluated. */
+void field_owner(const Lattice *l, int place, int *patch, int *i, int *j);
+
+/* A place on the undisplaced root patches. */
+Vec3 field_global(const Lattice *l, const Patch *root, int place);
+
+/* Levels (bit 1 << level) at which anything is displaced. */
+unsigned field_levels(const Field *f);
+
+/* The field at a place: the sum over `levels`, without the offset. */
+Vec3 field_at(const Field *f, unsigned levels, int place);
+
+/* d, shortened to `cap`; *capped becomes true if it was longer. */
+Vec3 field_limit(Vec3 d, double cap, bool *capped);
+
+static inline bool field_is_zero(Vec3 d) { return d.x == 0 && d.y == 0 && d.z == 0; }
+
+/* Unit normals of the displaced patches at the sheet's vertices (analytic). Where offsets bend the
+   mesh away from its patches, the mean of the facets round the vertex, weighted by area. */
+void field_normals(const Field *f, const Patch *root, const Sheet *sheet, const Vec3 *position, Vec3 *normal);
+
+/* The displaced patch over cell (a, b) of a level, a leaf or finer: the part of the root patch and
+   the field over it, which is bicubic there. Offsets are left out. */
+Patch field_leaf(const Field *f, const Patch *root, LatticeCell cell, int level);
+
+#endif

@@ -1,0 +1,157 @@
+/* The displacement field, evaluated. Most frames displace little and at few levels, so levels
+   without a displacement are found once and left out. */
+#include "dress/field.h"
+
+#include <string.h>
+
+static const double FADE = 0.8;      /* of the carried displacement, in 1/30 s */
+static const double FELT = 0.0002;   /* metres on 1.70 m: a carried displacement below this is dropped */
+static const double AGREEMENT = 0.7; /* cosine: an analytic normal farther off its facets is not used */
+
+bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e) {
+    *f = (Field){.lattice = lattice, .scale = lattice->fit->height / 1.70, .pelvis = mat_identity()};
+    f->cap = lattice->fit->height / (lattice->fit->garment->loose ? 7 : 9);
+    for (int l = 0; l < LATTICE_LEVELS; l++)
+        f->start[l + 1] = f->start[l] + (l <= lattice->depth ? lattice->level[l].count : 0);
+    f->displacement = ARENA_NEW(arena, Vec3, f->start[LATTICE_LEVELS], e);
+    f->offset = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
+    return f->displacement && f->offset;
+}
+
+void field_forget(Field *f) {
+    memset(f->displacement, 0, (size_t)f->start[LATTICE_LEVELS] * sizeof *f->displacement);
+    memset(f->offset, 0, (size_t)f->lattice->nplaces * sizeof *f->offset);
+}
+
+/* One carried vector; false once it is no longer felt. */
+static bool carry(Vec3 *d, Mat3 turn, double fade, double felt) {
+    if (field_is_zero(*d)) return false;
+    *d = vec_scale(mat_apply(turn, *d), fade);
+    if (vec_dot(*d, *d) > felt * felt) return true;
+    *d = vec(0, 0, 0);
+    return false;
+}
+
+void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leaves *leaves) {
+    const Lattice *l = f->lattice;
+    double fade = restart ? 0 : pow(FADE, dt * 30), felt = FELT * f->scale;
+    Mat3 pelvis = body->pose.bone[ROLE_PELVIS].r, turn = mat_mul(pelvis, mat_transpose(f->pelvis));
+    for (int level = 0; level <= l->depth; level++)
+        for (int v = 0; v < l->level[level].count; v++)
+            if (carry(&f->displacement[f->start[level] + v], turn, fade, felt)) leaves_open(leaves, level, v);
+    for (int v = 0; v < l->nplaces; v++) carry(&f->offset[v], turn, fade, felt);
+    f->pelvis = pelvis;
+}
+
+void field_owner(const Lattice *l, int place, int *patch, int *i, int *j) {
+    int n = l->side + 1, o = l->owner[place];
+    *patch = o / (n * n);
+    *i = o / n % n;
+    *j = o % n;
+}
+
+Vec3 field_global(const Lattice *l, const Patch *root, int place) {
+    int patch, i, j;
+    field_owner(l, place, &patch, &i, &j);
+    const double *bu = l->basis[i], *bw = l->basis[j];
+    Vec3 sum = {0, 0, 0};
+    for (int k = 0; k < 4; k++) {
+        const Vec3 *p = root[patch].p[k];
+        Vec3 row = vec_mad(vec_mad(vec_mad(vec_scale(p[0], bw[0]), p[1], bw[1]), p[2], bw[2]), p[3], bw[3]);
+        sum = vec_mad(sum, row, bu[k]);
+    }
+    return sum;
+}
+
+unsigned field_levels(const Field *f) {
+    unsigned used = 0;
+    for (int level = 0; level <= f->lattice->depth; level++)
+        for (int k = f->start[level]; k < f->start[level + 1] && !(used >> level & 1); k++)
+            if (!field_is_zero(f->displacement[k])) used |= 1u << level;
+    return used;
+}
+
+Vec3 field_at(const Field *f, unsigned levels, int place) {
+    const Lattice *l = f->lattice;
+    int patch, i, j, vertex[4];
+    double weight[4];
+    Vec3 d = {0, 0, 0};
+    field_owner(l, place, &patch, &i, &j);
+    for (int level = 0; levels >> level; level++) {
+        if (!(levels >> level & 1)) continue;
+        lattice_weights(l, level, patch, i, j, vertex, weight, NULL, NULL);
+        for (int k = 0; k < 4; k++) d = vec_mad(d, f->displacement[f->start[level] + vertex[k]], weight[k]);
+    }
+    return d;
+}
+
+Vec3 field_limit(Vec3 d, double cap, bool *capped) {
+    double n = vec_len(d);
+    if (n <= cap) return d;
+    *capped = true;
+    return vec_scale(d, cap / n);
+}
+
+/* Derivatives of the displaced patch at a place, by the parameters of its owner. */
+static Vec3 analytic_normal(const Field *f, const Patch *root, unsigned levels, int place) {
+    const Lattice *l = f->lattice;
+    int patch, i, j, id[4];
+    field_owner(l, place, &patch, &i, &j);
+    Vec3 du = {0, 0, 0}, dw = {0, 0, 0};
+    for (int a = 0; a < 4; a++)
+        for (int b = 0; b < 4; b++) {
+            du = vec_mad(du, root[patch].p[a][b], l->basis_slope[i][a] * l->basis[j][b]);
+            dw = vec_mad(dw, root[patch].p[a][b], l->basis[i][a] * l->basis_slope[j][b]);
+        }
+    for (int level = 0; levels >> level; level++) {
+        if (!(levels >> level & 1)) continue;
+        double weight[4], wu[4], ww[4];
+        lattice_weights(l, level, patch, i, j, id, weight, wu, ww);
+        for (int k = 0; k < 4; k++) {
+            du = vec_mad(du, f->displacement[f->start[level] + id[k]], wu[k]);
+            dw = vec_mad(dw, f->displacement[f->start[level] + id[k]], ww[k]);
+        }
+    }
+    Vec3 n = vec_cross(du, dw);
+    return l->fit->patch[patch].flip ? vec_scale(n, -1) : n;
+}
+
+void field_normals(const Field *f, const Patch *root, const Sheet *sheet, const Vec3 *position, Vec3 *normal) {
+    unsigned levels = field_levels(f);
+    for (int v = 0; v < sheet->nvertices; v++) normal[v] = vec(0, 0, 0);
+    for (int t = 0; t < sheet->ntriangles; t++) {
+        const int *v = sheet->triangle[t].v;
+        Vec3 n = vec_cross(vec_sub(position[v[1]], position[v[0]]), vec_sub(position[v[2]], position[v[0]]));
+        for (int c = 0; c < 3; c++) normal[v[c]] = vec_add(normal[v[c]], n);
+    }
+    for (int v = 0; v < sheet->nvertices; v++) {
+        Vec3 faces = vec_unit_or(normal[v], vec(0, 1, 0));
+        Vec3 smooth = vec_unit_or(analytic_normal(f, root, levels, sheet->place[v]), faces);
+        normal[v] = vec_dot(smooth, faces) > AGREEMENT ? smooth : faces;
+    }
+}
+
+/* The field of one level over cell (a, b) of a deeper one, as a patch: of the cell of that level
+   that holds it the four corners' vectors, each to its quarter of the control points, then cut. */
+static Patch field_part(const Field *f, LatticeCell cell, int level, int deeper) {
+    int shift = deeper - level, n = (1 << level) + 1, a = cell.a >> shift, b = cell.b >> shift;
+    const int *vertex = f->lattice->level[level].vertex;
+    Patch whole;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            int v = vertex[(cell.patch * n + a + i / 2) * n + b + j / 2];
+            whole.p[i][j] = f->displacement[f->start[level] + v];
+        }
+    double size = 1.0 / (1 << shift), u = (cell.a - (a << shift)) * size, w = (cell.b - (b << shift)) * size;
+    return bezier_part(&whole, u, u + size, w, w + size);
+}
+
+Patch field_leaf(const Field *f, const Patch *root, LatticeCell cell, int level) {
+    double size = 1.0 / (1 << level), u = cell.a * size, w = cell.b * size;
+    Patch leaf = bezier_part(&root[cell.patch], u, u + size, w, w + size);
+    for (int l = 0; l <= level; l++) {
+        Patch part = field_part(f, cell, l, level);
+        for (int k = 0; k < 16; k++) leaf.p[k / 4][k % 4] = vec_add(leaf.p[k / 4][k % 4], part.p[k / 4][k % 4]);
+    }
+    return leaf;
+}
