@@ -175,7 +175,7 @@ const Option settings_table[] = {
     {"unit", 0, KIND_UNIT, FIELD(unit), "UNIT", "Meshes", COMMAND_VERIFY,
      "length unit of the meshes", .fallback = "what the file says, or m", RANGE(1e-6, 1e6)},
     {"rate", 0, KIND_REAL, FIELD(rate), "HZ", "Meshes", COMMAND_VERIFY,
-     "frames a second, for accelerations", .fallback = "30", RANGE(0.001, 100000)},
+     "frames a second, for accelerations", .fallback = "that of stats.csv, or 30", RANGE(0.001, 100000)},
     {"acceleration", 0, KIND_FLAG, FIELD(acceleration), NULL, "Output", COMMAND_VERIFY,
      "also how violently garment and body move", .manner = true},
     {"landmarks", 0, KIND_FLAG, FIELD(landmarks), NULL, "Output", COMMAND_VERIFY,

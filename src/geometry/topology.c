@@ -13,22 +13,23 @@ static uint64_t bits(double x) {
     return u;
 }
 
-static size_t hash(Vec3 p) {
+/* The upper bits of a product depend on all bits of its factors, so they are the ones to take. */
+static uint64_t hash(Vec3 p) {
     uint64_t h = bits(p.x) * 0x9E3779B97F4A7C15u;
-    h = (h ^ h >> 29 ^ bits(p.y)) * 0xBF58476D1CE4E5B9u;
-    h = (h ^ h >> 31 ^ bits(p.z)) * 0x94D049BB133111EBu;
-    return (size_t)(h ^ h >> 30);
+    h = ((h ^ h >> 32) + bits(p.y)) * 0xBF58476D1CE4E5B9u;
+    return ((h ^ h >> 32) + bits(p.z)) * 0x94D049BB133111EBu;
 }
 
 static bool same_place(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
 static bool join_vertices(const Mesh *mesh, Arena *arena, int *joined, Error *e) {
     size_t size = 16;
-    while (size < 2 * (size_t)mesh->nvertices) size *= 2;
+    int shift = 60;
+    for (; size < 2 * (size_t)mesh->nvertices; size *= 2) shift--;
     int *slot = ARENA_NEW(arena, int, size, e); /* vertex + 1; 0 is free */
     if (!slot) return false;
     for (int v = 0; v < mesh->nvertices; v++) {
-        size_t at = hash(mesh->position[v]) & (size - 1);
+        size_t at = (size_t)(hash(mesh->position[v]) >> shift);
         while (slot[at] && !same_place(mesh->position[slot[at] - 1], mesh->position[v])) at = (at + 1) & (size - 1);
         if (!slot[at]) slot[at] = v + 1;
         joined[v] = slot[at] - 1;
