@@ -93,6 +93,16 @@ figures: all					## draw the figures of the paper, into build/figures
 	@for n in 5 6; do echo "  DRAW build/figures/figure$$n.svg"; \
 	build/$(NAME) draw --job tests/golden/figure$$n.job -o build/figures/figure$$n.svg || exit 1; done
 
+WALK = build/$(NAME) walk
+motions: all					## make the shipped motions again, in motions/
+	$(WALK) --preset paper -o motions/paper-walk.bvh
+	$(WALK) --preset brisk --steps 6 -o motions/brisk-walk.bvh
+	$(WALK) --stairs 0.17:0.29:5 -o motions/stairs-up.bvh
+	$(WALK) --stairs -0.17:0.29:5 -o motions/stairs-down.bvh
+	$(WALK) --slope 12 --steps 6 -o motions/slope.bvh
+	$(WALK) --preset squat -o motions/squat.bvh
+	$(WALK) --preset turn --steps 8 -o motions/turn.bvh
+
 JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
 test: $(OUT)/$(NAME) $(UNIT) build/deps-test	## unit programs and shell tests, through prove
 	@KITSUKE='$(CURDIR)/$(OUT)/$(NAME)' KITSUKE_BUILD=$(BUILD) ASAN_OPTIONS=exitcode=99 \
@@ -150,5 +160,5 @@ help:						## this list
 	@awk -F ':.*## *' '/^[a-z]+:.*## / {printf "  %-10s %s\n", $$1, $$2}' Makefile
 
 -include $(OBJ:.o=.d) $(UNIT:=.d) $(LINT:=.d)
-.PHONY: all demo figures test check bench lint fuzz fuzz-run format install uninstall dist clean help FORCE
+.PHONY: all demo figures motions test check bench lint fuzz fuzz-run format install uninstall dist clean help FORCE
 .SECONDARY:

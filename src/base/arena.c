@@ -51,8 +51,8 @@ void *arena_array(Arena *a, size_t count, size_t size, Error *e) {
     size_t bytes = (count * size + ALIGN - 1) / ALIGN * ALIGN;
     void *p = a->fail_after > 0 && --a->fail_after == 0 ? NULL : take(a, bytes ? bytes : ALIGN);
     if (!p && a->limit)
-        error_set(e, ERR_INTERNAL, "out of memory (%zu bytes held, %zu more asked, at most %zu allowed)", a->held, bytes,
-                  a->limit);
+        error_set(e, ERR_INTERNAL, "out of memory (%zu bytes held, %zu more asked, at most %zu allowed)",
+                  a->held, bytes, a->limit);
     else if (!p) error_set(e, ERR_INTERNAL, "out of memory (%zu bytes held, %zu more asked)", a->held, bytes);
     return p;
 }

@@ -306,7 +306,9 @@ static int literal_borders(const Literal *l, Edge *out) {
     return n;
 }
 
-static const Leaves *leaves_of(const Dresser *d, LeafKind kind) { return kind == LEAVES_BY_RULE ? &d->by_rule : &d->leaves; }
+static const Leaves *leaves_of(const Dresser *d, LeafKind kind) {
+    return kind == LEAVES_BY_RULE ? &d->by_rule : &d->leaves;
+}
 
 int dresser_leaves(const Dresser *d, LeafKind kind, LeafPatch *out, int capacity) {
     if (d->options.method == METHOD_PAPER) return literal_leaves(&d->literal, out, capacity);
