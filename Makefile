@@ -34,7 +34,8 @@ UNIT   = $(patsubst tests/%.c,$(OUT)/%.t,$(wildcard tests/unit_*.c))
 SCRIPT = $(filter-out tests/lib.sh tests/bench.sh,$(wildcard tests/*.sh))
 FUZZ   = $(patsubst tests/fuzz/%.c,$(OUT)/%,$(wildcard tests/fuzz/fuzz_*.c))
 LINT   = $(patsubst src/%,build/lint/%.ok,$(filter %.c,$(SRC)))
-SHOW   = motions/paper-walk.bvh --garment garments/skirt.garment
+WALK   = motions/paper-walk.bvh
+SHOW   = $(WALK) --garment garments/skirt.garment
 
 # A word for each command; make V=1 shows them whole.
 Q      = $(if $(V),,@)
@@ -92,6 +93,10 @@ figures: all					## draw the figures of the paper, into build/figures
 	@mkdir -p build/figures
 	@for n in 5 6; do echo "  DRAW build/figures/figure$$n.svg"; \
 	build/$(NAME) draw --job tests/golden/figure$$n.job -o build/figures/figure$$n.svg || exit 1; done
+	@echo '  DRAW build/figures/figure7a.svg, figure7b.svg'
+	@build/$(NAME) compare $(WALK) -g garments/paper-skirt.garment -o build/figures/compare --force --quiet >/dev/null
+	@cp build/figures/compare/tests.svg build/figures/figure7a.svg
+	@cp build/figures/compare/times.svg build/figures/figure7b.svg
 
 WALK = build/$(NAME) walk
 motions: all					## make the shipped motions again, in motions/

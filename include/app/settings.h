@@ -41,7 +41,7 @@ typedef struct {
 typedef struct {
     TextList inputs;            /* what stands on the command line without a dash, or --motion */
     const char *files_from;     /* a list of more of them */
-    const char *output;         /* folder (dress) or file (walk) */
+    const char *output;         /* folder (dress, compare) or file (walk, draw) */
 
     TextList garments;
     const char *asf, *roles, *body;

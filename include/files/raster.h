@@ -4,7 +4,7 @@
 
 #include "geometry/mesh.h"
 
-enum { RASTER_TONES = 24, RASTER_PAPER = 0 };
+enum { RASTER_TONES = 32, RASTER_PAPER = 0 };
 
 /* Parallel projection. turn: world to view (x right, y up, z towards the viewer); centre: the world
    point in the middle of the picture; scale: pixels per metre. */

@@ -25,6 +25,7 @@ typedef struct {
     Raster raster;
     Outline outline;
     double fine, unit;   /* pixels per point; tenths of a point per pixel */
+    double extent;       /* of the scene, the longest; metres */
     /* Private: */
     unsigned char *spread;
     int *queue;

@@ -21,8 +21,11 @@
 static const double FINE = 4, PIXELS = 4e6;
 enum { NO_TONE = 255, RIM = 2 };
 static const double SPECK = 14;      /* square pixels: smaller regions of a tone are left out */
-static const double STEP = 0.02;     /* metres: a surface that far before itself has a contour there */
-static const double SLACK = 0.0015;  /* metres: lines this little below the surface are seen */
+/* Parts of the longest extent of what is drawn, so that no unit matters: */
+static const double STEP = 0.008;    /* a surface that far before itself has a contour there */
+static const double SLACK = 0.0009;  /* lines this little below the surface are seen */
+
+#define LINE "#1a1a1a"
 
 typedef struct { int r, g, b; } Ink;
 
@@ -172,19 +175,23 @@ static void draw_tones(Canvas *c, const SceneSurface *s, int label, FILE *out) {
 
 /* Does a surface end between two neighbouring pixels? `before` and `behind` them are the next ones
    in that line: a slope is no end, only a step that is much larger than those beside it. */
-static bool is_step(const float *depth, int before, int a, int b, int behind) {
+static bool is_step(const float *depth, double least, int before, int a, int b, int behind) {
     double step = fabs((double)depth[a] - depth[b]);
-    return step > STEP + 2 * fmin(fabs((double)depth[before] - depth[a]), fabs((double)depth[b] - depth[behind]));
+    return step > least + 2 * fmin(fabs((double)depth[before] - depth[a]), fabs((double)depth[b] - depth[behind]));
 }
 
-/* The contour between two neighbouring pixels: 0 none, 1 within the picture, 2 against the paper. */
-static int contour(const Raster *r, int before, int a, int b, int behind) {
+/* What ends between two neighbouring pixels: nothing, a surface before itself, before another one, or
+   against the paper. */
+typedef enum { NOTHING, ITSELF, ANOTHER, PAPER } Contour;
+
+static Contour contour(const Canvas *c, int before, int a, int b, int behind) {
+    const Raster *r = &c->raster;
     int p = r->label[a], q = r->label[b];
-    if (p != q) return p == RASTER_PAPER || q == RASTER_PAPER ? 2 : 1;
-    return p != RASTER_PAPER && is_step(r->depth, before, a, b, behind);
+    if (p != q) return p == RASTER_PAPER || q == RASTER_PAPER ? PAPER : ANOTHER;
+    return p != RASTER_PAPER && is_step(r->depth, STEP * c->extent, before, a, b, behind) ? ITSELF : NOTHING;
 }
 
-static void mark_contours(Canvas *c, int kind) {
+static void mark_contours(Canvas *c, Contour kind) {
     const Raster *r = &c->raster;
     int w = r->width, h = r->height;
     outline_clear(&c->outline, 0, 0, w, h);
@@ -192,17 +199,27 @@ static void mark_contours(Canvas *c, int kind) {
         for (int x = 0; x < w; x++) {
             int k = y * w + x, below = y + 1 < h ? k + w : k, right = x + 1 < w ? k + 1 : k;
             int above = y > 1 ? k - 2 * w : k - w, before = x > 1 ? k - 2 : k - 1;
-            if (y > 0 && contour(r, above, k - w, k, below) == kind) outline_above(&c->outline, x, y);
-            if (x > 0 && contour(r, before, k - 1, k, right) == kind) outline_left(&c->outline, x, y);
+            if (y > 0 && contour(c, above, k - w, k, below) == kind) outline_above(&c->outline, x, y);
+            if (x > 0 && contour(c, before, k - 1, k, right) == kind) outline_left(&c->outline, x, y);
         }
 }
 
-static void draw_contours(Canvas *c, int kind, double width, FILE *out) {
+/* Lines shorter than `least` points are left out. */
+static void draw_contours(Canvas *c, Contour kind, int width, double least, FILE *out) {
     mark_contours(c, kind);
-    fprintf(out, "<path stroke=\"#1a1a1a\" stroke-width=\"%.0f\" d=\"", width);
+    fprintf(out, "<path stroke=\"" LINE "\" stroke-width=\"%d\" stroke-linecap=\"round\" d=\"", width);
     while (outline_next(&c->outline))
-        if (outline_length(&c->outline) > 2 * c->fine) outline_write(&c->outline, c->unit, out);
+        if (outline_length(&c->outline) > least * c->fine) outline_write(&c->outline, c->unit, out);
     fputs("\"/>\n", out);
+}
+
+/* A ground in the colour of contours: where the curves round two regions leave a sliver open, it is
+   a piece of contour and no hole. */
+static void draw_ground(Canvas *c, FILE *out) {
+    fputs("<path fill=\"" LINE "\" d=\"", out);
+    mark_region(c, (Part){0, 0, c->raster.width, c->raster.height}, c->raster.label, RASTER_PAPER + 1, 255);
+    put_region(c, out);
+    fputc('\n', out);
 }
 
 /* The visible pieces of a straight edge, each as long as it can be. */
@@ -210,7 +227,7 @@ static void draw_edge(const Canvas *c, Vec3 a, Vec3 b, FILE *out) {
     int steps = 1 + (int)(sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y)) / 2), from = -1;
     if (steps > 10000) return;
     for (int k = 0; k <= steps + 1; k++) {
-        bool seen = k <= steps && raster_visible(&c->raster, vec_lerp(a, b, (double)k / steps), SLACK);
+        bool seen = k <= steps && raster_visible(&c->raster, vec_lerp(a, b, (double)k / steps), SLACK * c->extent);
         if (seen && from < 0) from = k;
         if (seen || from < 0) continue;
         Vec3 p = vec_lerp(a, b, (double)from / steps), q = vec_lerp(a, b, (double)(k - 1) / steps);
@@ -246,7 +263,7 @@ static void find_dots(Canvas *c, const Scene *scene, bool seen) {
         for (int k = 0; k < scene->surface[s].ndots && n < c->capacity; k++) {
             Vec3 p = raster_place(&c->raster, scene->surface[s].dot[k]);
             if (p.x < 0 || p.y < 0 || p.x > c->raster.width || p.y > c->raster.height) continue;
-            if (raster_visible(&c->raster, p, SLACK) != seen) continue;
+            if (raster_visible(&c->raster, p, SLACK * c->extent) != seen) continue;
             c->dot[n][0] = (int)floor(p.x * c->unit + 0.5);
             c->dot[n++][1] = (int)floor(p.y * c->unit + 0.5);
         }
@@ -266,6 +283,10 @@ static void put_dots(const Canvas *c, const char *stroke, int width, FILE *out) 
 
 void scene_draw(Canvas *c, const Scene *scene, const Camera *camera, double left, double top, FILE *out) {
     Camera fine = {camera->turn, camera->centre, camera->scale * c->fine};
+    Box box = box_empty();
+    scene_reach(scene, camera->turn, 0, &box);
+    Vec3 size = vec_sub(box.high, box.low);
+    c->extent = fmax(size.x, fmax(size.y, size.z));
     raster_clear(&c->raster, &fine);
     for (int s = 0; s < scene->count; s++) {
         const SceneSurface *surface = &scene->surface[s];
@@ -274,10 +295,12 @@ void scene_draw(Canvas *c, const Scene *scene, const Camera *camera, double left
     fputs("<g transform=\"translate(", out);
     svg_point(out, left, top);
     fputs(")scale(.1)\" fill-rule=\"evenodd\">\n", out);
+    draw_ground(c, out);
     for (int label = 1; label <= 2 * scene->count; label++)
         draw_tones(c, &scene->surface[(label - 1) / 2], label, out);
-    draw_contours(c, 1, 6, out);
-    draw_contours(c, 2, 9, out);
+    draw_contours(c, ITSELF, 6, 6, out);
+    draw_contours(c, ANOTHER, 6, 2, out);
+    draw_contours(c, PAPER, 9, 2, out);
     draw_lines(c, scene, out);
     find_dots(c, scene, false);
     put_dots(c, "#8a8a8a", 14, out);
