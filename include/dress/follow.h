@@ -11,8 +11,9 @@ typedef struct {
     const Body *body;
     Vec3 (*curve)[4];                    /* control points of every curve in this pose */
     Vec3 (*slope)[GARMENT_ROWS_MAX][4];  /* per panel and row: derivative across the rows */
-    Vec3 *node_slope;
-    int *node_uses;
+    Vec3 *node_slope;                    /* per node: sum of the slopes of its panels, */
+    double *node_length;                 /* of their lengths, */
+    int *node_uses;                      /* and their number */
 } Follower;
 
 /* Takes the memory for a fit. Figure and body must outlive it. */

@@ -14,8 +14,9 @@ bool follow_reserve(Follower *f, const Fit *fit, const Figure *figure, const Bod
     f->curve = arena_array(arena, (size_t)fit->ncurves, sizeof *f->curve, e);
     f->slope = arena_array(arena, (size_t)fit->npanels, sizeof *f->slope, e);
     f->node_slope = ARENA_NEW(arena, Vec3, fit->nnodes, e);
+    f->node_length = ARENA_NEW(arena, double, fit->nnodes, e);
     f->node_uses = ARENA_NEW(arena, int, fit->nnodes, e);
-    return f->curve && f->slope && f->node_slope && f->node_uses;
+    return f->curve && f->slope && f->node_slope && f->node_length && f->node_uses;
 }
 
 /* Weighted bones as one rigid motion, by dual quaternions (Kavan et al. 2007): between two bones
@@ -81,22 +82,28 @@ static Vec3 row_slope(const Follower *f, const FitPanel *panel, int r, int k) {
 }
 
 /* Ends of rows are nodes, which other panels share: all take the mean, so the edge between two
-   nodes is one curve whoever draws it, also where four panels meet at a crotch. */
+   nodes is one curve whoever draws it, also where four panels meet at a crotch. Where panels part,
+   as at the bottom of a neckline, the mean is shortened by how much they disagree, squared:
+   with the plain share their borders still ran side by side for a facet. */
 static void share_slopes(Follower *f) {
     const Fit *fit = f->fit;
     memset(f->node_slope, 0, (size_t)fit->nnodes * sizeof *f->node_slope);
     memset(f->node_uses, 0, (size_t)fit->nnodes * sizeof *f->node_uses);
+    memset(f->node_length, 0, (size_t)fit->nnodes * sizeof *f->node_length);
     for (int pass = 0; pass < 2; pass++)
         for (int p = 0; p < fit->npanels; p++)
             for (int r = 0; r < fit->panel[p].nrows; r++)
                 for (int end = 0; end < 2; end++) {
                     int node = fit->curve[fit->panel[p].curve[r]].node[end];
-                    Vec3 *slope = &f->slope[p][r][3 * end];
+                    Vec3 *slope = &f->slope[p][r][3 * end], sum = f->node_slope[node];
+                    double length = f->node_length[node];
                     if (pass == 0) {
-                        f->node_slope[node] = vec_add(f->node_slope[node], *slope);
+                        f->node_slope[node] = vec_add(sum, *slope);
+                        f->node_length[node] += vec_len(*slope);
                         f->node_uses[node]++;
                     } else {
-                        *slope = vec_scale(f->node_slope[node], 1.0 / f->node_uses[node]);
+                        double agreement = length > 0 ? vec_len(sum) / length : 1;
+                        *slope = vec_scale(sum, agreement * agreement / f->node_uses[node]);
                     }
                 }
 }
