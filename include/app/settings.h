@@ -16,12 +16,15 @@ typedef enum {
    every one. */
 typedef struct { int first, last, step; } FrameSpan;
 
+/* The k-th of n parts, from 1; 0: the whole. */
+typedef struct { int k, n; } Part;
+
 typedef struct { int count; const char **item; } TextList;
 
 typedef enum { FORMAT_OBJ = 1, FORMAT_DRC = 2, FORMAT_NONE = 4 } FormatBit;
 /* What is compared: global, no local deformation; paper, the paper's to the letter. */
 typedef enum { COMPARE_UNIFORM, COMPARE_ADAPTIVE, COMPARE_GLOBAL, COMPARE_PAPER, COMPARE_METHODS } CompareMethod;
-typedef enum { PROGRESS_AUTO, PROGRESS_ALWAYS, PROGRESS_NEVER } ProgressMode;
+typedef enum { PROGRESS_AUTO, PROGRESS_ALWAYS, PROGRESS_NEVER, PROGRESS_JSON } ProgressMode;
 
 enum { SHOW_PATCHES = 1, SHOW_POINTS = 2, SHOW_CELLS = 4 };
 
@@ -65,6 +68,8 @@ typedef struct {
     bool no_body, no_times, force;
 
     bool resume;
+    Part shard;
+    bool merge;                 /* inputs are folders with summaries */
     int max_joints, max_frames; /* 0: those of motion_open */
     int max_memory;             /* megabytes for each thread; 0 = no limit */
     int jobs;                   /* worker threads; 0 = one per processor */
@@ -91,6 +96,7 @@ typedef enum {
     KIND_CHOICE, /* int: one of `choices` */
     KIND_SET,    /* unsigned: several of `choices`, separated by commas */
     KIND_STAIRS, /* Gait: RISE:RUN:COUNT */
+    KIND_PART,   /* Part: K/N */
     KIND_SPAN,   /* FrameSpan: A, A:B or A:B:STEP */
     KIND_UNIT    /* double: a name in `choices` stands for millimetres, or a number of metres */
 } OptionKind;

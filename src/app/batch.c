@@ -52,7 +52,7 @@ typedef struct {
     const Input *input;
     Digest options;
     Item *item;
-    int count;
+    int count, total;     /* total: with the other shards */
     Worker *worker;
     Slot *slot;           /* as many as workers */
     int nworkers;
@@ -157,9 +157,7 @@ static bool open_job(Batch *b, Worker *w, Slot *slot) {
                          s->output, input->name);
     if (!input->is_empty && !record_motion(input, s, &order.key.motion, &(Error){0})) order.key.motion = 0;
     if (is_finished(b, slot, &order.key) || result->error.kind) return false;
-    if (!job_open(&order, &w->lane, slot->notes, &slot->arena, result, &slot->job)) return false;
-    item->frames = job_frames(slot->job);
-    return true;
+    return job_open(&order, &w->lane, slot->notes, &slot->arena, result, &slot->job);
 }
 
 /* A free slot for the next item. */
@@ -198,6 +196,7 @@ static Slot *next_task(Batch *b, Worker *w, int *chunk) {
 static void show(Batch *b, Slot *slot) {
     pthread_mutex_lock(&b->lock);
     slot->state = SLOT_OPEN;
+    b->item[slot->item].frames = job_frames(slot->job);
     pthread_cond_broadcast(&b->change);
     pthread_mutex_unlock(&b->lock);
 }
@@ -268,6 +267,7 @@ static bool write_summary(const Batch *b, Error *e) {
         stats_abandon(&f);
         return false;
     }
+    if (!summary_end(&f, s, b->total, e)) return stats_abandon(&f), false;
     return stats_close(&f, e) && sync_folder(s->output, e);
 }
 
@@ -321,9 +321,7 @@ static bool prepare(Batch *b, Arena *arena, Error *e) {
     for (int i = 0; i < b->count; i++) b->item[i].result.row = rows + (size_t)i * (size_t)b->wardrobe->ngarments;
     for (int i = 0; i < b->nworkers; i++)
         b->worker[i].lane.arena.limit = b->slot[i].arena.limit = (size_t)s->max_memory << 20;
-    bool visible = s->progress == PROGRESS_ALWAYS;
-    if (s->progress == PROGRESS_AUTO) visible = !s->quiet && isatty(STDERR_FILENO);
-    progress_start(&b->progress, visible, b->count, look_at_folders(b));
+    progress_start(&b->progress, s, b->count, look_at_folders(b));
     return true;
 }
 
@@ -347,15 +345,15 @@ static bool lock_summary(const Settings *s, Lock *lock, Error *e) {
     return lock_file(lock, name, e);
 }
 
-ErrorKind batch_run(const Wardrobe *wardrobe, const Input *input, int count, Arena *arena, Error *e) {
-    Batch b = {.wardrobe = wardrobe, .input = input, .count = count};
+ErrorKind batch_run(const Wardrobe *wardrobe, const Input *input, int count, int total, Arena *arena, Error *e) {
+    Batch b = {.wardrobe = wardrobe, .input = input, .count = count, .total = total};
     Lock lock = {0};
     ErrorKind worst = ERR_NONE;
     pthread_mutex_init(&b.lock, NULL);
     pthread_cond_init(&b.change, NULL);
     bool good = lock_summary(wardrobe->settings, &lock, e) && prepare(&b, arena, e) &&
                 thread_each(b.nworkers, b.nworkers, work, &b, e);
-    progress_hide(&b.progress);
+    progress_end(&b.progress);
     if (!good || !write_summary(&b, e)) worst = e->kind;
     if (good && !wardrobe->settings->quiet) print_end(&b);
     for (int i = 0; good && i < count; i++)

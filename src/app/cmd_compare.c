@@ -1,7 +1,6 @@
 /* kitsuke compare: the experiment over every pair of motion and garment, one after the other,
    since times that are taken side by side on one machine tell nothing. */
 #include <string.h>
-#include <unistd.h>
 
 #include "app/commands.h"
 #include "app/compare.h"
@@ -37,9 +36,7 @@ static void compare_pairs(const Wardrobe *w, const Input *input, ComparePair *pa
     ObjWriter obj = {0};
     Progress progress;
     char folder[OUTPUT_PATH_MAX];
-    bool visible = s->progress == PROGRESS_ALWAYS;
-    if (s->progress == PROGRESS_AUTO) visible = !s->quiet && isatty(STDERR_FILENO);
-    progress_start(&progress, visible, count, count);
+    progress_start(&progress, s, count, count);
     for (int k = 0; k < count; k++) {
         ComparePair *p = &pair[k];
         Notes *notes = ARENA_NEW(&arena, Notes, 1, e);
@@ -59,6 +56,7 @@ static void compare_pairs(const Wardrobe *w, const Input *input, ComparePair *pa
         progress.finished++;
         arena_reset(&arena);
     }
+    progress_end(&progress);
     arena_free(&arena);
     obj_writer_free(&obj);
 }

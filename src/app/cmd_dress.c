@@ -6,8 +6,11 @@
 #include "app/commands.h"
 #include "app/listfile.h"
 #include "app/stop.h"
+#include "app/summary.h"
 
 static bool check_needed(const Settings *s, Error *e) {
+    if (s->merge && s->inputs.count > 0) return true;
+    if (s->merge) return error_set(e, ERR_USAGE, "nothing to merge: name folders with summaries");
     if (s->inputs.count == 0 && !s->files_from)
         return error_set(e, ERR_USAGE, "nothing to dress: name a motion or a folder of motions");
     if (s->garments.count == 0) return error_set(e, ERR_USAGE, "nothing to put on: name a garment with -g FILE");
@@ -28,15 +31,29 @@ static bool collect(const Settings *s, Arena *arena, Input **input, int *count, 
     return inputs_collect(&all, arena, input, count, e);
 }
 
+/* Every n-th, so that neighbours, which are often alike, go to different machines. Names were given
+   before: a motion's folder is the same in every shard. */
+static int take_shard(Part shard, Input *input, int count) {
+    int kept = 0;
+    if (!shard.n) return count;
+    for (int i = shard.k - 1; i < count; i += shard.n) input[kept++] = input[i];
+    return kept;
+}
+
 ErrorKind cmd_dress(const Settings *s, Error *e) {
     Arena arena = {0};
     Input *input = NULL;
-    int count = 0;
+    int total = 0;
     ErrorKind code = ERR_USAGE;
     Wardrobe w;
     stop_listen();
-    bool good = check_needed(s, e) && wardrobe_read(s, &arena, &w, e) && collect(s, &arena, &input, &count, e);
-    code = good ? batch_run(&w, input, count, &arena, e) : e->kind;
+    bool good = check_needed(s, e);
+    if (good && s->merge) {
+        code = summary_merge(s, &arena, e) ? ERR_NONE : e->kind;
+    } else {
+        good = good && wardrobe_read(s, &arena, &w, e) && collect(s, &arena, &input, &total, e);
+        code = good ? batch_run(&w, input, take_shard(s->shard, input, total), total, &arena, e) : e->kind;
+    }
     arena_free(&arena);
     return code;
 }

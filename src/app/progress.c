@@ -11,8 +11,9 @@
 
 enum { WIDTH_DEFAULT = 80, WIDTH_MAX = 200 };
 
-void progress_start(Progress *p, bool visible, int motions, double weight) {
-    *p = (Progress){.visible = visible, .motions = motions, .weight = weight > 0 ? weight : 1};
+void progress_start(Progress *p, const Settings *s, int motions, double weight) {
+    *p = (Progress){.mode = (ProgressMode)s->progress, .motions = motions, .weight = weight > 0 ? weight : 1};
+    if (p->mode == PROGRESS_AUTO) p->mode = !s->quiet && isatty(STDERR_FILENO) ? PROGRESS_ALWAYS : PROGRESS_NEVER;
     p->started = clock_seconds();
 }
 
@@ -40,11 +41,23 @@ static void compose(const Progress *p, double under_way, double elapsed, char *o
     }
 }
 
+/* For programs: what the line says, as numbers. */
+static void print_json(const Progress *p, double part, double elapsed, bool is_last) {
+    fprintf(stderr, "{\"motions\":%d,\"done\":%d,\"failed\":%d,\"frames\":%lld,\"seconds\":%.1f,", p->motions, p->done,
+            p->failed, p->frames, elapsed);
+    fprintf(stderr, "\"frames_per_second\":%.1f,\"part\":%.4f,\"finished\":%s}\n",
+            elapsed > 0 ? (double)p->frames / elapsed : 0, part < 1 ? part : 1, is_last ? "true" : "false");
+}
+
 void progress_draw(Progress *p, double under_way) {
     char line[WIDTH_MAX + 1];
     double now = clock_seconds();
-    if (!p->visible || now - p->drawn < 0.1) return;
+    if (p->mode == PROGRESS_NEVER || now - p->drawn < (p->mode == PROGRESS_JSON ? 1 : 0.1)) return;
     p->drawn = now;
+    if (p->mode == PROGRESS_JSON) {
+        print_json(p, (p->finished + under_way) / p->weight, now - p->started, false);
+        return;
+    }
     compose(p, under_way, now - p->started, line, sizeof line);
     int most = terminal_width() - 1, before = p->shown < most ? p->shown : most;
     p->shown = fprintf(stderr, "\r%.*s", most, line) - 1;
@@ -53,8 +66,14 @@ void progress_draw(Progress *p, double under_way) {
 }
 
 void progress_hide(Progress *p) {
+    if (p->mode != PROGRESS_ALWAYS) return;
     int most = terminal_width() - 1, n = p->shown < most ? p->shown : most;
     if (n > 0) fprintf(stderr, "\r%*s\r", n, "");
     p->shown = 0;
     p->drawn = 0;
+}
+
+void progress_end(Progress *p) {
+    progress_hide(p);
+    if (p->mode == PROGRESS_JSON) print_json(p, p->finished / p->weight, clock_seconds() - p->started, true);
 }

@@ -25,7 +25,8 @@ static const Choice presets[] = {{"normal", 0}, {"paper", 0}, {"brisk", 0}, {"sq
 static const Choice shows[] = {
     {"patches", SHOW_PATCHES}, {"points", SHOW_POINTS}, {"cells", SHOW_CELLS}, {NULL, 0}};
 static const Choice progress_modes[] = {
-    {"auto", PROGRESS_AUTO}, {"always", PROGRESS_ALWAYS}, {"never", PROGRESS_NEVER}, {NULL, 0}};
+    {"auto", PROGRESS_AUTO}, {"always", PROGRESS_ALWAYS}, {"never", PROGRESS_NEVER}, {"json", PROGRESS_JSON},
+    {NULL, 0}};
 
 /* Names that --unit takes, in metres. */
 static const struct { const char *name; double metres; } units[] = {
@@ -187,6 +188,10 @@ const Option settings_table[] = {
      "threads", .fallback = "one for each processor", RANGE(1, 256), .manner = true},
     {"resume", 0, KIND_FLAG, FIELD(resume), NULL, "Run", COMMAND_DRESS,
      "leave out motions that are finished, made of the same inputs with the same options", .manner = true},
+    {"shard", 0, KIND_PART, FIELD(shard), "K/N", "Run", COMMAND_DRESS,
+     "dress every N-th motion of the list, from the K-th on; writes summary.K-of-N.csv", .manner = true},
+    {"merge", 0, KIND_FLAG, FIELD(merge), NULL, "Run", COMMAND_DRESS,
+     "dress nothing: join the summaries in the named folders into one summary.csv", .manner = true},
     {"max-frames", 0, KIND_INT, FIELD(max_frames), "N", "Run", MOVES,
      "refuse longer motions", .fallback = "100000000", RANGE(1, 2e9), .manner = true},
     {"max-joints", 0, KIND_INT, FIELD(max_joints), "N", "Run", MOVES,
@@ -204,7 +209,8 @@ const Option settings_table[] = {
     {"verbose", 'v', KIND_FLAG, FIELD(verbose), NULL, "Messages", COMMAND_DRESS,
      "more about each motion, and where the time went", .manner = true},
     {"progress", 0, KIND_CHOICE, FIELD(progress), "WHEN", "Messages", COMMAND_DRESS | COMMAND_COMPARE,
-     "a line that tells how far it is; auto: on a terminal", .fallback = "auto", .choices = progress_modes,
+     "a line that tells how far it is; auto: on a terminal; json: a line a second for programs", .fallback = "auto",
+     .choices = progress_modes,
      .manner = true},
     {"help", 'h', KIND_FLAG, FIELD(help), NULL, "Messages", COMMAND_ALL,
      "print this page", .manner = true},
@@ -398,6 +404,18 @@ static bool put_stairs(Gait *field, const Option *option, const char *text, Erro
     return true;
 }
 
+/* K/N with 1 <= K <= N */
+static bool put_part(Part *field, const Option *option, const char *text, Error *e) {
+    enum { MOST = 100000 };
+    const char *slash = strchr(text, '/'), *end = text + strlen(text);
+    double k = 0, n = 0;
+    bool good = slash && text_number(text, slash, &k) == slash && text_number(slash + 1, end, &n) == end;
+    if (!good || !(k >= 1 && k <= n && n <= MOST) || k != (int)k || n != (int)n)
+        return expected(option, "K/N with 1 <= K <= N", text, e);
+    *field = (Part){(int)k, (int)n};
+    return true;
+}
+
 bool settings_append(TextList *list, const char *text, Arena *arena, Error *e) {
     if ((list->count & (list->count - 1)) == 0) { /* full at every power of two */
         const char **more = ARENA_NEW(arena, const char *, list->count ? 2 * list->count : 1, e);
@@ -418,6 +436,7 @@ bool settings_put(Settings *s, const Option *option, const char *text, Arena *ar
     case KIND_LIST: return settings_append(field, text, arena, e);
     case KIND_CHOICE: return put_choice(field, option, text, e);
     case KIND_SET: return put_set(field, option, text, e);
+    case KIND_PART: return put_part(field, option, text, e);
     case KIND_SPAN: return put_span(field, option, text, e);
     case KIND_STAIRS: return put_stairs(field, option, text, e);
     case KIND_UNIT: return put_unit(field, option, text, e);

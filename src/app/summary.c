@@ -3,6 +3,8 @@
 
 bool summary_path(const Settings *s, char path[OUTPUT_PATH_MAX], Error *e) {
     int n = snprintf(path, OUTPUT_PATH_MAX, "%s/summary.csv", s->output);
+    if (s->shard.n)
+        n = snprintf(path, OUTPUT_PATH_MAX, "%s/summary.%d-of-%d.csv", s->output, s->shard.k, s->shard.n);
     return n < OUTPUT_PATH_MAX || error_set(e, ERR_OUTPUT, "the name of the output folder is too long");
 }
 
@@ -17,6 +19,13 @@ static void give_reason(const Error *why, char *reason, size_t n) {
 static const char *status_of(ErrorKind kind) {
     if (kind <= ERR_CHECK) return "ok";
     return kind == ERR_INPUT || kind == ERR_USAGE ? "refused" : "failed";
+}
+
+bool summary_end(StatsFile *f, const Settings *s, int total, Error *e) {
+    char line[80];
+    if (!s->shard.n) return true;
+    snprintf(line, sizeof line, SHARD_LINE, s->shard.k, s->shard.n, total);
+    return stats_add_text(f, line, e);
 }
 
 bool summary_add_motion(StatsFile *f, const Wardrobe *w, const Input *input, const JobResult *result, const char *rows,

@@ -1,0 +1,131 @@
+#!/bin/sh
+# Many motions: parts of a list and their summaries, progress for programs, bounds, chunks, hostile names.
+. "$(dirname "$0")/lib.sh"
+
+skirt=$root/garments/skirt.garment
+mkdir -p in/deep
+for steps in 1 2 3 4 5; do "$KITSUKE" walk --preset paper --frames-per-step 4 --steps $steps -o in/walk$steps.bvh; done
+cp in/walk3.bvh in/deep/walk3.bvh
+cp in/walk1.bvh in/deep/walk1.bvh
+printf 'no motion\n' >in/bad.bvh
+dress() { "$KITSUKE" dress -q --no-times --body-detail 8 --detail 2 -g "$skirt" "$@"; }
+shards() { # shards N FOLDER ARGUMENT...: all parts, the last one first
+    n=$1 folder=$2
+    shift 2
+    for k in $(awk "BEGIN { for (k = $n; k > 0; k--) print k }"); do
+        dress in --shard "$k/$n" -o "$folder" "$@" || [ $? -eq 3 ] || return 1
+    done
+}
+
+must_fail 3 dress in -o whole >log
+ok 'three shards in one folder' shards 3 parts
+is 'each has its summary' "$(cd parts && echo summary.*)" 'summary.1-of-3.csv summary.2-of-3.csv summary.3-of-3.csv'
+like 'which tells its part' "$(tail -n 1 parts/summary.2-of-3.csv)" '^# shard 2 of 3 of 8 motions$'
+ok 'their summaries are joined' "$KITSUKE" dress --merge parts -q
+same 'into that of a single run' parts/summary.csv whole/summary.csv
+ok 'and all the rest is that of a single run' diff -r -x 'summary.*-of-*' parts whole
+ok 'more shards than motions' shards 11 many
+ok 'can be joined too' "$KITSUKE" dress --merge many -q
+same 'to the same' many/summary.csv whole/summary.csv
+ok 'shards on different machines' eval 'shards 2 far && mkdir a b && mv far/summary.1-of-2.csv a && mv far/summary.2* b'
+ok 'are joined where -o says' "$KITSUKE" dress --merge b a -o joined -q
+same 'to the same, in any order' joined/summary.csv whole/summary.csv
+ok 'several folders need -o' must_fail 2 "$KITSUKE" dress --merge a b
+ok 'a shard that is missing: exit 3' must_fail 3 "$KITSUKE" dress --merge a
+like 'with its number' "$(cat err)" 'shard 2 of 2 is missing'
+ok 'a shard twice: exit 3' must_fail 3 "$KITSUKE" dress --merge a a -o joined
+sed '/^walk2,/d' a/summary.1-of-2.csv >b/summary.1-of-2.csv
+ok 'a shard that lacks rows: exit 3' must_fail 3 "$KITSUKE" dress --merge b
+cp in/walk1.bvh b/summary.1-of-2.csv
+ok 'what is no summary: exit 3' must_fail 3 "$KITSUKE" dress --merge b
+ok 'no folder: exit 3' must_fail 3 "$KITSUKE" dress --merge nowhere
+ok 'nothing to merge: exit 2' must_fail 2 "$KITSUKE" dress --merge
+same 'what failed left the old one' joined/summary.csv whole/summary.csv
+dress in/walk1.bvh -o one
+dress in/walk2.bvh -o two
+"$KITSUKE" dress --merge two one -o both -q
+is 'summaries of different lists follow one another' \
+    "$(awk -F, '/,ok,/ { printf "%s ", $1 }' both/summary.csv)" 'walk2 walk1 '
+resumed() { rm -r parts/walk2 && must_fail 3 dress in --resume -o parts && diff -r -x 'summary.*-of-*' parts whole; }
+ok 'one run may finish what shards began' resumed
+for part in 0/3 4/3 3 a/b 1/0 1/3/2 1.5/3; do
+    ok "--shard $part: exit 2" must_fail 2 "$KITSUKE" dress in -g "$skirt" -o none --shard $part
+done
+
+# Progress as JSON
+"$KITSUKE" dress in -g "$skirt" -o json --progress json --format none 2>err
+last=$(grep '^{' err | tail -n 1)
+like 'the last line of JSON' "$last" \
+    '^{"motions":8,"done":8,"failed":1,"frames":76,"seconds":[0-9.]+,.*,"part":1.0000,"finished":true}$'
+if command -v python3 >log; then
+    grep '^{' err >lines
+    ok 'every line of it is JSON' python3 -c 'import json; [json.loads(line) for line in open("lines")]'
+else
+    skip 'every line of it is JSON' 'no python3'
+fi
+
+# Bounds
+refuses() { # refuses PATTERN ARGUMENT...
+    pattern=$1
+    shift
+    must_fail 3 dress in/walk2.bvh -o bounds "$@" && grep -Eq -e "$pattern" err && [ ! -e bounds/walk2 ]
+}
+ok '--max-frames' refuses 'in/walk2.bvh:[0-9]+:9: error: 8 frames are more than the limit of 7' --max-frames 7
+ok '--max-joints' refuses 'more than 5 joints' --max-joints 5
+ok 'as many as there are' dress in/walk2.bvh -o bounds --max-frames 8 --max-joints 100
+ok '--max-memory: exit 5' must_fail 5 dress in/walk2.bvh -o memory --max-memory 1
+like 'says what was allowed' "$(cat err)" 'at most 1048576 allowed'
+ok 'and writes nothing' test ! -e memory/walk2
+ok '--max-memory that suffices' dress in/walk2.bvh -o memory --max-memory 200
+
+# Chunks: a long motion in pieces, the same whatever the number of threads
+"$KITSUKE" walk --preset paper --frames-per-step 8 --steps 80 -o long.bvh
+chunks() { dress long.bvh -o "chunks$1" -j "$1" --format none "${2:---no-body}" "${3:---no-body}"; }
+ok 'a motion of 640 frames on one thread' chunks 1
+ok 'on two' chunks 2
+ok 'on five' chunks 5
+ok 'the same bytes' eval 'diff -r chunks1 chunks2 && diff -r chunks1 chunks5'
+# Every chunk but the first begins with the cloth of the one before.
+steady() { awk -F, '/^#/ { next } !at { for (i = 1; i <= NF; i++) if ($i == "restarted") at = i; next }
+    $1 != ++n || $at != (n == 1) { bad = 1 } END { exit bad || n != 640 }' chunks1/long/stats.csv; }
+ok 'every frame once, in order, and nothing starts afresh in between' steady
+part() { # the frames round the second chunk, alone, after a warm-up of their own
+    dress long.bvh -o part --frames 180:300 --format obj && dress long.bvh -o full --format obj --frames 100:300 &&
+        cmp part/long/skirt.0290.obj full/long/skirt.0290.obj
+}
+ok 'a selection shows the same frames' part
+one_job() {
+    head -c $(($(wc -c <long.bvh) - 20)) long.bvh >broken.bvh
+    "$KITSUKE" dress broken.bvh -g "$skirt" -o broken --format none -j 4 2>err
+    grep -q 'ends within frame 640' err && [ "$(grep -c '^[0-9]' broken/broken/stats.csv)" -eq 639 ]
+}
+ok 'a motion that is cut at its end' one_job
+
+# Names that want out of the folder, or are not for every system
+mkdir -p 'names/...' 'names/a
+b' names/con names/.hidden
+long=$(awk 'BEGIN { for (i = 0; i < 250; i++) printf "n" }')
+for name in '.../...bvh' 'a
+b/c	d.bvh' con/aux.bvh '.hidden/.done.bvh' "$long.bvh" 'x.done.bvh' 'summary.csv.lock.bvh' '*?.bvh' \
+    '"quoted", with comma.bvh' '#.bvh' "$(printf '\377\376.bvh')" '~.bvh' '$(touch out).bvh' '.bvh'; do
+    cp in/walk1.bvh "names/$name"
+done
+printf 'names/%s\n' ../names/con/aux.bvh ../../../../../../../../../../../tmp/../etc/passwd.bvh '%s%n.bvh' >list
+cp in/walk1.bvh 'names/%s%n.bvh'
+mkdir -p cage/inner
+find names -name '*.bvh' -print0 >all
+tr '\n' '\000' <list >>all
+hostile() {
+    must_fail 3 dress --files-from all -o cage/inner/out --format none
+}
+ok 'hostile names: all but the one that does not exist are dressed' hostile
+is 'nothing outside of the folder' \
+    "$(cd cage && find . -mindepth 1 -maxdepth 2 | sort | tr '\n' ' ')" './inner ./inner/out '
+is 'no control byte in a name' \
+    "$(find cage | tr -d '\n' | tr -d -c '\001-\037\177' | wc -c | tr -d ' ')" 0
+is 'every motion has a folder of its own' "$(find cage -name stats.csv | wc -l | tr -d ' ')" \
+    "$(grep -c ',ok,' cage/inner/out/summary.csv)"
+like 'as many as there were' "$(grep -c ',ok,' cage/inner/out/summary.csv)" '^1[5-9]$'
+ok 'they can be resumed' eval 'must_fail 3 dress --files-from all -o cage/inner/out --format none --resume --strict'
+is 'a summary has a line for each row' "$(awk -F, 'NR > 3 && !/,(ok|refused|failed),/' cage/inner/out/summary.csv)" ''
+done_testing
