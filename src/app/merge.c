@@ -111,11 +111,12 @@ static bool add_folder(Merge *m, const char *path) {
     struct stat info;
     if (stat(path, &info) == 0 && S_ISREG(info.st_mode)) return add(m, path, "");
     DIR *folder = opendir(path);
+    if (!folder) return error_set(m->e, ERR_INPUT, "cannot open the folder '%s': %s", path, strerror(errno));
     int before = m->count;
-    bool good = folder || error_set(m->e, ERR_INPUT, "cannot open the folder '%s': %s", path, strerror(errno));
+    bool good = true;
     for (struct dirent *entry; good && (entry = readdir(folder));)
         good = !is_shard_name(entry->d_name) || add(m, path, entry->d_name);
-    if (folder) closedir(folder);
+    closedir(folder);
     if (good && m->count > before) qsort(m->item + before, (size_t)(m->count - before), sizeof *m->item, by_shard);
     return good && (m->count > before || add(m, path, "summary.csv"));
 }
