@@ -12,6 +12,7 @@ typedef struct {
     int start[LATTICE_LEVELS + 1]; /* level l's vertices are start[l]..start[l + 1) */
     Vec3 *displacement;            /* per level vertex */
     Vec3 *offset;                  /* per lattice place: the last millimetres of single vertices */
+    bool *bent;                    /* private: mesh vertices whose facets leave the patch */
     Mat3 pelvis;                   /* of the frame that the displacement belongs to */
 } Field;
 
@@ -40,7 +41,7 @@ Vec3 field_limit(Vec3 d, double cap, bool *capped);
 static inline bool field_is_zero(Vec3 d) { return d.x == 0 && d.y == 0 && d.z == 0; }
 
 /* Unit normals of the displaced patches at the sheet's vertices (analytic). Where offsets bend the
-   mesh away from its patches, the mean of the facets round the vertex, weighted by area. */
+   mesh away from its patches, the mean of the facets' normals round the vertex. */
 void field_normals(const Field *f, const Patch *root, const Sheet *sheet, const Vec3 *position, Vec3 *normal);
 
 /* The displaced patch over cell (a, b) of a level, a leaf or finer: the part of the root patch and

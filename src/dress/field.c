@@ -6,7 +6,7 @@
 
 static const double FADE = 0.8;      /* of the carried displacement, in 1/30 s */
 static const double FELT = 0.0002;   /* metres on 1.70 m: a carried displacement below this is dropped */
-static const double AGREEMENT = 0.7; /* cosine: an analytic normal farther off its facets is not used */
+static const double AGREEMENT = 0.3; /* cosine: an analytic normal farther off one of its facets is not used */
 
 bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e) {
     *f = (Field){.lattice = lattice, .scale = lattice->fit->height / 1.70, .pelvis = mat_identity()};
@@ -15,7 +15,8 @@ bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e) {
         f->start[l + 1] = f->start[l] + (l <= lattice->depth ? lattice->level[l].count : 0);
     f->displacement = ARENA_NEW(arena, Vec3, f->start[LATTICE_LEVELS], e);
     f->offset = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
-    return f->displacement && f->offset;
+    f->bent = ARENA_NEW(arena, bool, lattice->nplaces, e);
+    return f->displacement && f->offset && f->bent;
 }
 
 void field_forget(Field *f) {
@@ -116,19 +117,33 @@ static Vec3 analytic_normal(const Field *f, const Patch *root, unsigned levels, 
     return l->fit->patch[patch].flip ? vec_scale(n, -1) : n;
 }
 
+static Vec3 face_normal(const Vec3 *position, const int v[3]) {
+    Vec3 n = vec_cross(vec_sub(position[v[1]], position[v[0]]), vec_sub(position[v[2]], position[v[0]]));
+    return vec_unit_or(n, vec(0, 0, 0));
+}
+
 void field_normals(const Field *f, const Patch *root, const Sheet *sheet, const Vec3 *position, Vec3 *normal) {
     unsigned levels = field_levels(f);
-    for (int v = 0; v < sheet->nvertices; v++) normal[v] = vec(0, 0, 0);
+    for (int v = 0; v < sheet->nvertices; v++) {
+        normal[v] = vec_unit_or(analytic_normal(f, root, levels, sheet->place[v]), vec(0, 1, 0));
+        f->bent[v] = false;
+    }
     for (int t = 0; t < sheet->ntriangles; t++) {
         const int *v = sheet->triangle[t].v;
-        Vec3 n = vec_cross(vec_sub(position[v[1]], position[v[0]]), vec_sub(position[v[2]], position[v[0]]));
-        for (int c = 0; c < 3; c++) normal[v[c]] = vec_add(normal[v[c]], n);
+        Vec3 face = face_normal(position, v);
+        for (int c = 0; c < 3; c++) f->bent[v[c]] |= vec_dot(normal[v[c]], face) < AGREEMENT;
     }
-    for (int v = 0; v < sheet->nvertices; v++) {
-        Vec3 faces = vec_unit_or(normal[v], vec(0, 1, 0));
-        Vec3 smooth = vec_unit_or(analytic_normal(f, root, levels, sheet->place[v]), faces);
-        normal[v] = vec_dot(smooth, faces) > AGREEMENT ? smooth : faces;
+    for (int v = 0; v < sheet->nvertices; v++)
+        if (f->bent[v]) normal[v] = vec(0, 0, 0);
+    for (int t = 0; t < sheet->ntriangles; t++) {
+        const int *v = sheet->triangle[t].v;
+        if (!f->bent[v[0]] && !f->bent[v[1]] && !f->bent[v[2]]) continue;
+        Vec3 face = face_normal(position, v);
+        for (int c = 0; c < 3; c++)
+            if (f->bent[v[c]]) normal[v[c]] = vec_add(normal[v[c]], face);
     }
+    for (int v = 0; v < sheet->nvertices; v++)
+        if (f->bent[v]) normal[v] = vec_unit_or(normal[v], vec(0, 1, 0));
 }
 
 /* The field of one level over cell (a, b) of a deeper one, as a patch: of the cell of that level
