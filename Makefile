@@ -31,7 +31,7 @@ SRC    = $(wildcard src/*/*.c src/*/*.cpp)
 OBJ    = $(SRC:src/%=$(OUT)/%.o)
 CORE   = $(filter-out $(OUT)/app/main.c.o,$(OBJ))
 UNIT   = $(patsubst tests/%.c,$(OUT)/%.t,$(wildcard tests/unit_*.c))
-SCRIPT = $(filter-out tests/lib.sh tests/bench.sh,$(wildcard tests/*.sh))
+SCRIPT = $(filter-out tests/lib.sh tests/bench.sh tests/faults.sh tests/cluster.sh,$(wildcard tests/*.sh))
 FUZZ   = $(patsubst tests/fuzz/%.c,$(OUT)/%,$(wildcard tests/fuzz/fuzz_*.c))
 LINT   = $(patsubst src/%,build/lint/%.ok,$(filter %.c,$(SRC)))
 WALK   = motions/paper-walk.bvh
@@ -113,6 +113,12 @@ test: $(OUT)/$(NAME) $(UNIT) build/deps-test	## unit programs and shell tests, t
 	@KITSUKE='$(CURDIR)/$(OUT)/$(NAME)' KITSUKE_BUILD=$(BUILD) ASAN_OPTIONS=exitcode=99 \
 	UBSAN_OPTIONS=exitcode=99:print_stacktrace=1 prove -j$(JOBS) -e '' $(sort $(UNIT) $(SCRIPT))
 
+test-faults: $(OUT)/$(NAME) build/deps-test	## kill, fill the disk, take files away, and resume (FAULTS=20: fewer)
+	@KITSUKE='$(CURDIR)/$(OUT)/$(NAME)' KITSUKE_BUILD=$(BUILD) prove -v -e '' tests/faults.sh
+test-cluster: $(OUT)/$(NAME) build/deps-test	## shards under Slurm and GNU parallel, as root on one machine
+	@DEPS='$(DEPS)' sh .ci/deps.sh slurmctld slurmd sbatch munged parallel || echo 'without them it is skipped'
+	@KITSUKE='$(CURDIR)/$(OUT)/$(NAME)' KITSUKE_BUILD=$(BUILD) prove -v -e '' tests/cluster.sh
+
 check:						## test all three builds, and compare the bytes they write
 	for b in release debug san; do $(MAKE) BUILD=$$b test || exit 1; rm -rf build/check/$$b; \
 	build/$$b/$(NAME) dress $(SHOW) --frames 1:6 --no-times --quiet --output build/check/$$b || exit 1; done
@@ -164,8 +170,8 @@ dist:						## the committed tree as build/kitsuke-VERSION.tar.gz
 clean:						## remove build/
 	rm -rf build
 help:						## this list
-	@awk -F ':.*## *' '/^[a-z]+:.*## / {printf "  %-10s %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## *' '/^[a-z-]+:.*## / {printf "  %-12s %s\n", $$1, $$2}' Makefile
 
 -include $(OBJ:.o=.d) $(UNIT:=.d) $(LINT:=.d)
-.PHONY: all demo figures motions test check bench lint fuzz fuzz-run format install uninstall dist clean help FORCE
+.PHONY: all demo figures motions test test-faults test-cluster check bench lint fuzz fuzz-run format install uninstall dist clean help FORCE
 .SECONDARY:

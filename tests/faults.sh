@@ -1,0 +1,144 @@
+#!/bin/bash
+# A campaign of faults (make test-faults; FAULTS=20 makes it shorter): whatever happens to a run, every
+# file that it leaves is whole, and --resume ends with the bytes of a run to which nothing happened.
+# Failing allocations: tests/unit_job.c.
+. "$(dirname "$0")/lib.sh"
+
+FAULTS=${FAULTS:-100}
+RANDOM=${FAULTS_SEED:-1}
+mkdir -p in/b
+cp "$root/garments/skirt.garment" "$root/garments/trousers.garment" .
+for steps in 1 2 3; do "$KITSUKE" walk --preset paper --frames-per-step 8 --steps $steps -o in/walk$steps.bvh; done
+cp in/walk2.bvh in/b/walk2.bvh
+"$KITSUKE" walk --preset paper --frames-per-step 8 --steps 60 -o in/long.bvh # two chunks
+printf 'no motion\n' >in/bad.bvh
+args=(in -g skirt.garment -g trousers.garment --no-times --detail 2 --body-detail 8 --frames ::4 -j 3 --format obj,drc)
+dress() { "$KITSUKE" dress "${args[@]}" "$@"; }
+
+must_fail 3 dress -o whole -q >log || exit 1
+start=$(date +%s%N)
+must_fail 3 dress -o timed -q >log || exit 1
+lasts=$((($(date +%s%N) - start) / 1000000)) # milliseconds
+rm -r timed
+echo "# an undisturbed run writes $(find whole -type f | wc -l) files in $lasts ms"
+
+# Every file is either as in the whole run, or a temporary or a lock, or a record or summary in the making.
+torn() { # torn FOLDER: prints what is neither
+    (cd "$1" 2>/dev/null && find . -type f ! -name '*.tmp' ! -name '*.lock' ! -path './summary.csv') | while read -r f; do
+        cmp -s "$1/$f" "whole/$f" || echo "$f"
+    done
+}
+is_sound() { # no torn file, and resumed the same bytes
+    local bad
+    bad=$(torn "$1")
+    [ -z "$bad" ] || { echo "torn: $bad"; return 1; }
+    must_fail 3 dress -o "$1" --resume -q || return 1
+    diff -r whole "$1"
+}
+after() { # after MILLISECONDS SIGNAL ARGUMENT...: what the run that was hit so long after its start returned
+    local ms=$1 signal=$2 pid code=0
+    shift 2
+    "$KITSUKE" dress "${args[@]}" -q "$@" 2>hit.err &
+    pid=$!
+    sleep "$(printf '%d.%03d' $((ms / 1000)) $((ms % 1000)))"
+    kill -s "$signal" "$pid" 2>/dev/null
+    wait "$pid" 2>/dev/null || code=$?
+    return $code
+}
+
+# Killed at any moment, once or again while it resumes.
+kills=0 rounds=0
+killed() {
+    while [ $kills -lt "$FAULTS" ]; do
+        rm -rf out.d
+        rounds=$((rounds + 1))
+        local again=$((RANDOM % 3 + 1))
+        for ((i = 0; i < again; i++)); do
+            after $((RANDOM % (lasts + lasts / 4))) KILL -o out.d --resume
+            [ $? -eq 137 ] && kills=$((kills + 1))
+            local bad
+            bad=$(torn out.d)
+            [ -z "$bad" ] || { echo "torn: $bad"; return 1; }
+        done
+        is_sound out.d || return 1
+    done
+    find out.d -name '*.lock' -o -name '*.tmp' | grep . && return 1
+    return 0
+}
+ok "kill -9, $FAULTS times" killed
+echo "# $kills kills in $rounds runs"
+
+for signal in INT TERM; do
+    signalled() {
+        for ((n = 0; n < FAULTS / 10 + 1; n++)); do
+            rm -rf out.d
+            local code=0
+            after $((RANDOM % lasts)) $signal -o out.d || code=$?
+            # killed before it listens, interrupted, or just done
+            case $code in 130 | 143 | 3) ;; *) echo "exit $code"; cat hit.err; return 1 ;; esac
+            [ $code -ne 130 ] || [ ! -s hit.err ] || grep -q -e '--resume' hit.err || { cat hit.err; return 1; }
+            [ $code -eq 143 ] || [ -z "$(find out.d -name '*.tmp' -o -name '*.lock' 2>/dev/null)" ] || return 1
+            is_sound out.d || return 1
+        done
+    }
+    ok "SIG$signal at random moments" signalled
+done
+pipe() { # the reader of stderr goes away at once
+    rm -rf out.d
+    { dress -o out.d --verbose --progress always; echo $? >code; } 2>&1 | true
+    [ "$(cat code)" -eq 3 ] && diff -r whole out.d
+}
+ok 'SIGPIPE: nobody reads what it says' pipe
+
+# Disks that are full at any byte
+mkdir disk
+if mount -t tmpfs -o size=64k none disk 2>log; then
+    need=$(($(du -sk whole | cut -f 1) + 64))
+    full() {
+        local code n=$((FAULTS / 2)) failed=0
+        for ((i = 0; i < n; i++)); do
+            umount disk
+            mount -t tmpfs -o "size=$((8 + need * i / n))k" none disk
+            code=0
+            dress -o disk/out -q 2>full.err || code=$?
+            case $code in 3) ;; 4) failed=$((failed + 1)); grep -q 'No space left' full.err || { cat full.err; return 1; } ;;
+            *) echo "exit $code"; cat full.err; return 1 ;; esac
+            [ -z "$(find disk -name '*.tmp' -o -name '*.lock')" ] || { find disk -name '*.tmp'; return 1; }
+            mount -o remount,size=200m disk
+            is_sound disk/out || return 1
+        done
+        echo "$failed of $n disks were full" >full.log
+        [ $failed -gt $((n / 2)) ]
+    }
+    ok 'a disk that is full at any byte' full
+    sed 's/^/# /' full.log
+    mount -o remount,ro disk
+    ok 'a disk that is read-only: exit 4' must_fail 4 dress -o disk/other -q
+    like 'with its reason' "$(cat err)" 'Read-only file system'
+    ok 'a run on it that was finished: exit 4, and nothing is touched' must_fail 4 dress -o disk/out -q --resume
+    ok 'it is whole' diff -r whole disk/out
+    umount disk
+else
+    skip 'a disk that is full at any byte' 'cannot mount a small one'
+    skip 'a disk that is read-only' 'cannot mount one'
+fi
+
+# Inputs that go or change while they are read
+gone() {
+    local n pid code
+    for ((n = 0; n < 5; n++)); do
+        rm -rf out.d
+        cp in/long.bvh kept.bvh
+        "$KITSUKE" dress "${args[@]}" -o out.d -q 2>err &
+        pid=$!
+        sleep "0.$(printf '%03d' $((RANDOM % (lasts < 900 ? lasts : 900))))"
+        if [ $((n % 2)) -eq 0 ]; then rm in/long.bvh; else head -c 5000 kept.bvh >in/long.bvh; fi
+        code=0
+        wait $pid || code=$?
+        cp kept.bvh in/long.bvh
+        [ $code -eq 3 ] || { echo "exit $code"; cat err; return 1; }
+        is_sound out.d || return 1
+    done
+}
+ok 'a motion that goes or is cut while it is read' gone
+done_testing
