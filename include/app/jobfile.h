@@ -13,10 +13,13 @@
 #define APP_JOBFILE_H
 
 #include "app/options.h"
+#include "base/text.h"
 
 /* Puts what the file says into `out`, which holds the defaults. ERR_USAGE with file, line and
    column. Texts and paths live in arena. */
 MUST_CHECK bool jobfile_read(const char *path, const Command *command, Arena *arena, Settings *out, Error *e);
+
+MUST_CHECK bool jobfile_parse(const Text *text, const Command *command, Arena *arena, Settings *out, Error *e);
 
 /* The job that the settings amount to, without what is the default anyway. ERR_INTERNAL. */
 MUST_CHECK bool jobfile_print(const Command *command, const Settings *s, FILE *out, Error *e);

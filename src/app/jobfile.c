@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/text.h"
-
 enum { JOB_FILE_MAX = 1 << 24 };
 
 typedef struct {
@@ -96,16 +94,19 @@ static bool read_line(const Reader *r, const Line *line) {
            wrong(r, line, line->count > 1 ? line->word[1] : line->word[0], why.text);
 }
 
-bool jobfile_read(const char *path, const Command *command, Arena *arena, Settings *out, Error *e) {
-    const char *slash = strrchr(path, '/');
-    Reader r = {.folder = path, .command = command, .arena = arena, .settings = out, .e = e};
-    Text text;
+bool jobfile_parse(const Text *text, const Command *command, Arena *arena, Settings *out, Error *e) {
+    const char *slash = strrchr(text->name, '/');
+    Reader r = {.folder = text->name, .command = command, .arena = arena, .settings = out, .e = e};
     Line line;
-    r.folder_length = slash ? (size_t)(slash - path) + 1 : 0;
-    if (!text_read(path, JOB_FILE_MAX, arena, &text, e)) return false;
-    for (Cursor c = text_start(&text); text_line(&c, &line, e);)
+    r.folder_length = slash ? (size_t)(slash - text->name) + 1 : 0;
+    for (Cursor c = text_start(text); text_line(&c, &line, e);)
         if (!read_line(&r, &line)) return false;
     return e->kind == ERR_NONE;
+}
+
+bool jobfile_read(const char *path, const Command *command, Arena *arena, Settings *out, Error *e) {
+    Text text;
+    return text_read(path, JOB_FILE_MAX, arena, &text, e) && jobfile_parse(&text, command, arena, out, e);
 }
 
 /* A value that could be mistaken for something else goes in quotes. */
