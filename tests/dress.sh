@@ -27,8 +27,8 @@ is 'bytes of the summary are the bytes of the files' "$(column bytes layout/summ
 is 'Draco files are Draco files' "$(head -c 5 layout/paper-walk/skirt.0009.drc)" DRACO
 like 'groups of the body are its roles' "$(grep '^g ' layout/paper-walk/body.0009.obj)" '^g left_thigh'
 dress "$walk" -g "$skirt" -o bare --frames 1:2 --no-body
-is '--no-body' "$(list bare)" \
-    './paper-walk/skirt.0001.obj ./paper-walk/skirt.0002.obj ./paper-walk/stats.csv ./summary.csv '
+is '--no-body' "$(cd bare/paper-walk && list .)" \
+    './skirt.0001.drc ./skirt.0001.obj ./skirt.0002.drc ./skirt.0002.obj ./stats.csv '
 dress "$walk" -g "$skirt" -o none --frames 1:2 --format none
 is '--format none leaves the statistics' "$(list none)" './paper-walk/stats.csv ./summary.csv '
 is 'and they are the same' "$(cat none/paper-walk/stats.csv)" "$(cat bare/paper-walk/stats.csv)"
@@ -48,7 +48,7 @@ dress "$walk" -g "$skirt" -o late --frames 70:999
 is 'a last frame behind the end is the end' "$(joined frame late/paper-walk/stats.csv)" '70 71 72 '
 dress "$walk" -g "$skirt" -o one --frames 7
 is '--frames 7 is that frame' "$(column frame one/paper-walk/stats.csv)" 7
-dress "$walk" -g "$skirt" -o rate66 --rate 66
+dress "$walk" -g "$skirt" -o rate66 --rate 66 --format obj
 ok 'resampled at its own rate it shows the same' diff -r -x '*.csv' -x .done full rate66
 dress "$walk" -g "$skirt" -o rate33 --rate 33
 is 'half the rate: half the frames' "$(count rate33 'body.*.obj')" 36
@@ -135,7 +135,7 @@ like 'the message says how to go on' "$(cat err)" "'again/paper-walk' holds file
 is 'nothing was touched' "$(list again/paper-walk)" "$(list step/paper-walk | sed 's/ \.\/skirt/ .\/notes.txt&/')"
 dress "$walk" -g "$skirt" -o again --frames 1:2 --force --no-body
 is '--force leaves none of the old frames, and what is not ours' "$(list again/paper-walk)" \
-    './notes.txt ./skirt.0001.obj ./skirt.0002.obj ./stats.csv '
+    './notes.txt ./skirt.0001.drc ./skirt.0001.obj ./skirt.0002.drc ./skirt.0002.obj ./stats.csv '
 cp again/paper-walk/stats.csv kept.csv
 printf 'garbage\n' >gone.bvh
 mkdir -p again/gone && printf 'old\n' >again/gone/stats.csv

@@ -24,7 +24,8 @@ echo "# an undisturbed run writes $(find whole -type f | wc -l) files in $lasts 
 
 # Every file is either as in the whole run, or a temporary or a lock, or a record or summary in the making.
 torn() { # torn FOLDER: prints what is neither
-    (cd "$1" 2>/dev/null && find . -type f ! -name '*.tmp' ! -name '*.lock' ! -path './summary.csv') | while read -r f; do
+    (cd "$1" 2>/dev/null && find . -type f ! -name '*.tmp' ! -name '*.lock' ! -path './summary.csv') |
+        while read -r f; do
         cmp -s "$1/$f" "whole/$f" || echo "$f"
     done
 }
@@ -101,7 +102,9 @@ if mount -t tmpfs -o size=64k none disk 2>log; then
             mount -t tmpfs -o "size=$((8 + need * i / n))k" none disk
             code=0
             dress -o disk/out -q 2>full.err || code=$?
-            case $code in 3) ;; 4) failed=$((failed + 1)); grep -q 'No space left' full.err || { cat full.err; return 1; } ;;
+            case $code in 3) ;; 4)
+                failed=$((failed + 1))
+                grep -q 'No space left' full.err || { cat full.err; return 1; } ;;
             *) echo "exit $code"; cat full.err; return 1 ;; esac
             [ -z "$(find disk -name '*.tmp' -o -name '*.lock')" ] || { find disk -name '*.tmp'; return 1; }
             mount -o remount,size=200m disk

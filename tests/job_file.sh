@@ -20,6 +20,7 @@ motion ../motions/walk.bvh      # a comment
 garment	skirt.garment
 output ../made
 frames 2:5:3
+format obj
 no-body
 no-times yes
 quiet
@@ -27,7 +28,7 @@ JOB
 ok 'a job is a whole command line' "$KITSUKE" dress --job jobs/plain.job
 is 'paths are seen from the file, values are taken' "$(find made -type f ! -name .done | sort | tr '\n' ' ')" \
     'made/summary.csv made/walk/skirt.0002.obj made/walk/skirt.0005.obj made/walk/stats.csv '
-dress motions/walk.bvh -g "$skirt" -o typed --frames 2:5:3 --no-body --no-times
+dress motions/walk.bvh -g "$skirt" -o typed --frames 2:5:3 --format obj --no-body --no-times
 ok 'and writes the bytes of that command line' diff -r made typed
 (cd jobs && dress --job plain.job -f)
 ok 'from the folder itself' diff -r made typed

@@ -7,7 +7,7 @@ MAKEFLAGS=$(printf '%s' "${MAKEFLAGS:-}" | sed 's/--jobserver[^ ]*//g; s/-j *[0-
 run_make() { make --no-print-directory -C "$root" BUILD="$KITSUKE_BUILD" DEPS=no "$@"; }
 
 like 'make help tells of every target' "$(run_make help | awk '{ printf "%s ", $1 }')" \
-    '^all demo figures motions test check bench lint fuzz format install uninstall dist clean help $'
+    '^all demo figures motions test test-faults test-cluster check bench lint fuzz format install uninstall dist clean'
 ok 'a build that is none of the three is refused' must_fail 2 run_make BUILD=fast
 like 'by name' "$(cat err)" "BUILD must be release, debug or san, not 'fast'"
 

@@ -62,7 +62,7 @@ typedef struct {
     int detail, depth;          /* as in DressOptions */
     int body_detail;            /* facets round a section; 0 = 16 */
 
-    unsigned formats;           /* FormatBit set; 0 = obj */
+    unsigned formats;           /* FormatBit set; 0 = obj and drc */
     double output_unit;         /* metres per unit of the written files; 0 = 1 */
     DrcOptions drc;             /* .speed counts from 1, as there */
     bool no_body, no_times, force;

@@ -46,7 +46,7 @@ bool lane_open(Lane *lane, const LaneWork *work, Error *e) {
 static bool write_mesh(Run *r, const char *name, int frame, const Mesh *mesh, long long *bytes, Error *e) {
     char path[OUTPUT_PATH_MAX + 128];
     const Settings *s = r->settings;
-    unsigned formats = s->formats ? s->formats : FORMAT_OBJ;
+    unsigned formats = s->formats ? s->formats : FORMAT_OBJ | FORMAT_DRC;
     long long n = 0;
     if (formats & FORMAT_OBJ) {
         snprintf(path, sizeof path, "%s/%s.%04d.obj", r->work->folder, name, frame);

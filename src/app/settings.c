@@ -100,7 +100,7 @@ const Option settings_table[] = {
     {"output", 'o', KIND_TEXT, FIELD(output), "DIR", "Output", COMMAND_DRESS,
      "folder for everything that is written; made if missing"},
     {"format", 0, KIND_SET, FIELD(formats), "LIST", "Output", COMMAND_DRESS,
-     "mesh files, separated by commas", .fallback = "obj", .choices = formats},
+     "mesh files, separated by commas", .fallback = "obj,drc", .choices = formats},
     {"output-unit", 0, KIND_UNIT, FIELD(output_unit), "UNIT", "Output", COMMAND_DRESS,
      "length unit of the written meshes", .fallback = "m", RANGE(1e-6, 1e6)},
     {"no-body", 0, KIND_FLAG, FIELD(no_body), NULL, "Output", COMMAND_DRESS,
