@@ -26,8 +26,8 @@ echo "# an undisturbed run writes $(find whole -type f | wc -l) files in $lasts 
 torn() { # torn FOLDER: prints what is neither
     (cd "$1" 2>/dev/null && find . -type f ! -name '*.tmp' ! -name '*.lock' ! -path './summary.csv') |
         while read -r f; do
-        cmp -s "$1/$f" "whole/$f" || echo "$f"
-    done
+            cmp -s "$1/$f" "whole/$f" || echo "$f"
+        done
 }
 is_sound() { # no torn file, and resumed the same bytes
     local bad
@@ -102,10 +102,9 @@ if mount -t tmpfs -o size=64k none disk 2>log; then
             mount -t tmpfs -o "size=$((8 + need * i / n))k" none disk
             code=0
             dress -o disk/out -q 2>full.err || code=$?
-            case $code in 3) ;; 4)
-                failed=$((failed + 1))
-                grep -q 'No space left' full.err || { cat full.err; return 1; } ;;
-            *) echo "exit $code"; cat full.err; return 1 ;; esac
+            [ $code -ne 4 ] || failed=$((failed + 1))
+            [ $code -eq 3 ] || { [ $code -eq 4 ] && grep -q 'No space left' full.err; } ||
+                { echo "exit $code"; cat full.err; return 1; }
             [ -z "$(find disk -name '*.tmp' -o -name '*.lock')" ] || { find disk -name '*.tmp'; return 1; }
             mount -o remount,size=200m disk
             is_sound disk/out || return 1
