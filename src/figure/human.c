@@ -87,8 +87,8 @@ static Vec3 forward(const Tree *t, int frame, const LimbPair *legs, const int ti
     return sum;
 }
 
-/* > 0: limb 0 of the pair is on the left as far as feet and knees tell; about 1 where they
-   tell clearly. */
+/* > 0: limb 0 of the pair is on the left as far as feet and knees tell; about 1 where they tell
+   clearly: in one who sits with stretched legs the feet point along the torso and say little. */
 static double left_by_shape(const Tree *t, const LimbPair *legs, const LimbPair *arms) {
     int tip[2];
     double votes = 0, size = 0;
@@ -97,11 +97,11 @@ static double left_by_shape(const Tree *t, const LimbPair *legs, const LimbPair 
         tip[i] = t->skeleton->joint[end].is_end ? -1 : sample_tip(t->sample, t->skeleton, end, legs->limb[i].length[1]);
     }
     for (int f = 0; f < t->sample->count; f++) {
-        Vec3 left = vec_cross(torso(t, f, legs, arms), forward(t, f, legs, tip));
+        Vec3 up = torso(t, f, legs, arms), front = forward(t, f, legs, tip), left = vec_cross(up, front);
         Vec3 hips = vec_sub(sample_point(t->sample, f, legs->limb[0].joint[0]),
                             sample_point(t->sample, f, legs->limb[1].joint[0]));
         votes += vec_dot(left, hips);
-        size += vec_len(left) * vec_len(hips);
+        size += vec_len(up) * vec_len(front) * vec_len(hips);
     }
     return size > 0 ? votes / size : 0;
 }
