@@ -98,15 +98,15 @@ figures: all					## draw the figures of the paper, into build/figures
 	@cp build/figures/compare/tests.svg build/figures/figure7a.svg
 	@cp build/figures/compare/times.svg build/figures/figure7b.svg
 
-WALK = build/$(NAME) walk
+STRIDE = build/$(NAME) walk
 motions: all					## make the shipped motions again, in motions/
-	$(WALK) --preset paper -o motions/paper-walk.bvh
-	$(WALK) --preset brisk --steps 6 -o motions/brisk-walk.bvh
-	$(WALK) --stairs 0.17:0.29:5 -o motions/stairs-up.bvh
-	$(WALK) --stairs -0.17:0.29:5 -o motions/stairs-down.bvh
-	$(WALK) --slope 12 --steps 6 -o motions/slope.bvh
-	$(WALK) --preset squat -o motions/squat.bvh
-	$(WALK) --preset turn --steps 8 -o motions/turn.bvh
+	$(STRIDE) --preset paper -o motions/paper-walk.bvh
+	$(STRIDE) --preset brisk --steps 6 -o motions/brisk-walk.bvh
+	$(STRIDE) --stairs 0.17:0.29:5 -o motions/stairs-up.bvh
+	$(STRIDE) --stairs -0.17:0.29:5 -o motions/stairs-down.bvh
+	$(STRIDE) --slope 12 --steps 6 -o motions/slope.bvh
+	$(STRIDE) --preset squat -o motions/squat.bvh
+	$(STRIDE) --preset turn --steps 8 -o motions/turn.bvh
 
 JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
 test: $(OUT)/$(NAME) $(UNIT) build/deps-test	## unit programs and shell tests, through prove
