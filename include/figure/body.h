@@ -97,7 +97,7 @@ MUST_CHECK bool body_skin(Body *body, int detail, Arena *arena, Error *e);
 void body_pose(const Body *b, const Pose *pose, Vec3 *positions, Vec3 *normals);
 
 /* Signed distance (metres, negative inside) of point p, in the PART FRAME, from a part's
-   surface, first order (METHOD section 3): exact in sign, good near the surface. *normal, if
+   surface, of first order: exact in sign, good near the surface. *normal, if
    not NULL, gets the outward unit normal in the part frame. Beyond `far` metres it may
    return any value >= far that is not larger than the true distance, without a normal. */
 double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal);

@@ -53,7 +53,7 @@ void figure_pose(const Figure *f, const Rigid *world, Pose *out);
 Pose figure_rest_pose(void);
 
 /* How far two poses are apart for a body dt seconds later: the largest speed of a bone end in
-   heights a second. Used to find T-pose first frames and teleports (DEFECTS 25, 26). */
+   heights a second. Used to find T-pose first frames and teleports. */
 double figure_speed(const Figure *f, const Pose *a, const Pose *b, double dt);
 
 #endif

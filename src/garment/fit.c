@@ -9,7 +9,7 @@
 #include "garment/fit_parts.h"
 
 /* Handles of arcs: a quarter of an ellipse, and half of one, as a single cubic. The half is the
-   one that reaches the full depth in its middle (METHOD section 6 of the design notes). */
+   one that reaches the full depth in its middle. */
 static const double QUARTER = 0.5522847498307936, HALF = 4.0 / 3.0;
 
 /* A ring in space: its centre and its half axes, front and back apart. */
