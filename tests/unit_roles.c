@@ -273,6 +273,30 @@ static void test_file(const char *text, const char *wanted, int line, int column
     rig_close(&r);
 }
 
+/* Half the letters wrong are no slip of the finger. */
+static void test_far_off(void) {
+    const char *path = in_folder("roles");
+    Rig r;
+    write_text(path, "tail = Bip01 Head\n");
+    OK(!rig_roles(&r, "tests/data/figure/biped.bvh", path) && !strstr(r.e.text, "did you mean"),
+       "what is near to nothing is not guessed");
+    rig_close(&r);
+}
+
+/* Whose left is told by hand needs no warning that it was a guess. */
+static void test_told_sides(void) {
+    const char *path = in_folder("roles"), *nameless = "tests/data/figure/nameless.bvh";
+    Rig r;
+    char text[200];
+    OK(rig_roles(&r, nameless, NULL) && r.notes.count == 1, "nameless limbs: a note that left was guessed");
+    snprintf(text, sizeof text, "left_thigh = %s\nright_thigh = %s\n", rig_joint(&r, ROLE_LEFT_THIGH),
+             rig_joint(&r, ROLE_RIGHT_THIGH));
+    rig_close(&r);
+    write_text(path, text);
+    OK(rig_roles(&r, nameless, path) && r.notes.count == 0, "no note where the role file tells");
+    rig_close(&r);
+}
+
 static void test_role_files(void) {
     Rig r;
     const char *path = in_folder("roles");
@@ -288,6 +312,8 @@ static void test_role_files(void) {
     test_file("head = Bip01 Hed\n", "did you mean 'Bip01 Head'?", 1, 8);
     test_file("\nleft_tigh = Bip01 L Thigh\n", "did you mean 'left_thigh'?", 2, 1);
     test_file("zzzzzzzzzzzzzz = Bip01 L Thigh\n", "unknown role", 1, 1);
+    test_far_off();
+    test_told_sides();
     test_file("head = Bip01 Head\nhead = Bip01 Head\n", "given twice", 2, 1);
     test_file("head Bip01 Head\n", "expected 'role = joint'", 1, 1);
     test_file("head =\n", "no joint for role", 1, 7);

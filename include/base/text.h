@@ -69,4 +69,14 @@ const char *text_number(const char *s, const char *end, double *out);
 /* Edit distance for "did you mean", capped at 9. */
 int text_distance(const char *a, const char *b);
 
+/* The candidate that a wrong word was probably meant to be: begin with {.word = ...}, try them all. */
+typedef struct {
+    const char *word, *best; /* best: NULL while nothing is near enough */
+    int distance;
+} Nearest;
+void nearest_try(Nearest *n, const char *candidate);
+
+/* Records "unknown WHAT 'WORD'; did you mean 'BEST'?" and returns false. */
+bool nearest_error(const Nearest *n, const char *what, Place place, Error *e);
+
 #endif

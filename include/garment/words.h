@@ -7,14 +7,7 @@
 
 enum { LENGTH_MAX = 100 }; /* metres; nothing worn is longer */
 
-/* Finds the candidate that a wrong word was probably meant to be. */
-typedef struct {
-    const char *word, *best; /* best may be NULL */
-    int distance;
-} Nearest;
-void nearest_try(Nearest *n, const char *candidate);
-
-/* Error: unknown WHAT 'WORD' (did you mean 'BEST'?) */
+/* nearest_error at word i. */
 bool words_unknown(const Line *line, int i, Error *e, const char *what, const Nearest *n);
 
 /* The number of the word among n words, -1 with an error. */

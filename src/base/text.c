@@ -195,3 +195,16 @@ int text_distance(const char *a, const char *b) {
     }
     return row[lb] < 9 ? row[lb] : 9;
 }
+
+/* One letter in four may be wrong, and one more: else any short word would do. */
+void nearest_try(Nearest *n, const char *candidate) {
+    int d = text_distance(n->word, candidate), most = (int)strlen(n->word) / 4 + 1;
+    if (d > most || (n->best && d >= n->distance)) return;
+    n->best = candidate;
+    n->distance = d;
+}
+
+bool nearest_error(const Nearest *n, const char *what, Place place, Error *e) {
+    if (!n->best) return error_at(e, ERR_INPUT, place, "unknown %s '%s'", what, n->word);
+    return error_at(e, ERR_INPUT, place, "unknown %s '%s'; did you mean '%s'?", what, n->word, n->best);
+}

@@ -57,14 +57,9 @@ static bool read_role(const Line *line, const BodySpec *body, Role *role, Error 
     if (!text_word(line, 1, name, sizeof name, e) || !no_more_words(line, 2, e)) return false;
     *role = role_find(name, (int)strlen(name));
     if (*role == ROLE_COUNT) {
-        const char *best = NULL;
-        int least = 4;
-        for (int r = 0; r < ROLE_COUNT; r++) {
-            int d = text_distance(name, role_name((Role)r));
-            if (d < least) least = d, best = role_name((Role)r);
-        }
-        return best ? text_error(line, 1, e, "unknown body part '%s'; did you mean '%s'?", name, best)
-                    : text_error(line, 1, e, "unknown body part '%s'", name);
+        Nearest near = {.word = name};
+        for (int r = 0; r < ROLE_COUNT; r++) nearest_try(&near, role_name((Role)r));
+        return nearest_error(&near, "body part", text_place(&line->at, line->word[1]), e);
     }
     if (find_part(body, *role)) return text_error(line, 1, e, "part '%s' is given twice", name);
     if (body->nparts == BODY_PARTS_MAX) return text_error(line, 0, e, "more than %d parts", BODY_PARTS_MAX);

@@ -130,14 +130,19 @@ static double ankle_height(const Skeleton *skeleton, const Sample *s, const Rest
 
 /* ---- unit ---- */
 
-typedef struct { const char *name; double metres; bool children; } Unit;
+/* common: also where that makes the figure a child or a giant. */
+typedef struct { const char *name; double metres; bool common; } Unit;
 static const Unit units[] = {
     {"cm", 0.01, true}, {"m", 1, true}, {"mm", 0.001, true}, {"inch", 0.0254, false},
     {"5.644 cm", 0.0254 / 0.45, false}, {"dm", 0.1, false}, {"foot", 0.3048, false},
 };
 enum { NUNITS = sizeof units / sizeof units[0] };
 
-/* stature: in file units. An adult in any unit before a child in a common one. */
+/* Statures, metres. */
+static const double CHILD_LEAST = 0.7, ADULT_LEAST = 1.4, ADULT_MOST = 2.1, GIANT_MOST = 2.6;
+
+/* stature: in file units. An adult in any unit comes before a child or a giant in a common one, so
+   a child of 0.55 to 0.82 m in centimetres is taken for an adult in inches: those are many more. */
 static void find_unit(double stature, double file_unit, Figure *f) {
     f->unit = STATURE / stature;
     f->unit_name = "unknown";
@@ -148,10 +153,11 @@ static void find_unit(double stature, double file_unit, Figure *f) {
             if (fabs(file_unit / units[i].metres - 1) < 1e-6) f->unit_name = units[i].name;
         return;
     }
-    for (int child = 0; child < 2; child++)
+    for (int odd = 0; odd < 2; odd++)
         for (int i = 0; i < NUNITS; i++) {
             double size = stature * units[i].metres;
-            if (child ? !units[i].children || size < 0.7 || size >= 1.4 : size < 1.4 || size > 2.1) continue;
+            if (odd && !units[i].common) continue;
+            if (size < (odd ? CHILD_LEAST : ADULT_LEAST) || size > (odd ? GIANT_MOST : ADULT_MOST)) continue;
             f->unit = units[i].metres;
             f->unit_name = units[i].name;
             return;

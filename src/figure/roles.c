@@ -46,22 +46,15 @@ static bool copy_trimmed(const char *from, const char *to, char *out, size_t n) 
 }
 
 static bool unknown_role(Place place, const char *role, Error *e) {
-    int nearest = 0;
-    for (int r = 1; r < ROLE_COUNT; r++)
-        if (text_distance(role, names[r]) < text_distance(role, names[nearest])) nearest = r;
-    if (text_distance(role, names[nearest]) > 4) return error_at(e, ERR_INPUT, place, "unknown role '%s'", role);
-    return error_at(e, ERR_INPUT, place, "unknown role '%s'; did you mean '%s'?", role, names[nearest]);
+    Nearest near = {.word = role};
+    for (int r = 0; r < ROLE_COUNT; r++) nearest_try(&near, names[r]);
+    return nearest_error(&near, "role", place, e);
 }
 
 static bool unknown_joint(const Skeleton *s, Place place, const char *joint, Error *e) {
-    const char *nearest = NULL;
-    int distance = 5;
-    for (int j = 0; j < s->njoints; j++) {
-        int d = text_distance(joint, s->joint[j].name);
-        if (d < distance) distance = d, nearest = s->joint[j].name;
-    }
-    if (!nearest) return error_at(e, ERR_INPUT, place, "no joint '%s' in the skeleton", joint);
-    return error_at(e, ERR_INPUT, place, "no joint '%s' in the skeleton; did you mean '%s'?", joint, nearest);
+    Nearest near = {.word = joint};
+    for (int j = 0; j < s->njoints; j++) nearest_try(&near, s->joint[j].name);
+    return nearest_error(&near, "joint", place, e);
 }
 
 /* One line `role = joint`. */
@@ -128,10 +121,12 @@ static bool check_distinct(const Skeleton *s, const Roles *roles, Error *e) {
 }
 
 /* What the file gives away, the search may not keep for another role. */
-static void yield_to_file(const bool *given, Roles *roles) {
+static void take_from_file(const bool *given, const Roles *file, Roles *roles) {
     for (int a = 0; a < ROLE_COUNT; a++)
         for (int b = 0; b < ROLE_COUNT; b++)
-            if (given[a] && !given[b] && roles->joint[a] == roles->joint[b]) roles->joint[b] = -1;
+            if (given[a] && !given[b] && file->joint[a] == roles->joint[b]) roles->joint[b] = -1;
+    for (int a = 0; a < ROLE_COUNT; a++)
+        if (given[a]) roles->joint[a] = file->joint[a];
 }
 
 bool roles_read(const Motion *m, const char *roles_file, Arena *scratch, Notes *notes, Roles *out, Error *e) {
@@ -139,12 +134,12 @@ bool roles_read(const Motion *m, const char *roles_file, Arena *scratch, Notes *
     Tree tree;
     if (!sample_read(m, SAMPLE_FRAMES, scratch, &sample, e)) return false;
     if (!tree_build(&m->skeleton, &sample, scratch, &tree, e)) return false;
-    human_find(&tree, notes, out);
-    if (roles_file) {
-        bool given[ROLE_COUNT] = {false};
-        if (!read_file(&m->skeleton, roles_file, scratch, given, out, e)) return false;
-        yield_to_file(given, out);
-        if (!check_distinct(&m->skeleton, out, e)) return false;
-    }
+    bool given[ROLE_COUNT] = {false};
+    Roles file = {{0}};
+    if (roles_file && !read_file(&m->skeleton, roles_file, scratch, given, &file, e)) return false;
+    bool sides_are_told = given[ROLE_LEFT_THIGH] && given[ROLE_RIGHT_THIGH]; /* then the search may doubt in silence */
+    human_find(&tree, sides_are_told ? NULL : notes, out);
+    take_from_file(given, &file, out);
+    return check_distinct(&m->skeleton, out, e) && check_required(m, out, e);
     return check_required(m, out, e);
 }

@@ -339,7 +339,7 @@ static bool read_statement(Parser *p, const Line *line, Error *e) {
     if (p->patch && is_number(line))
         return text_error(line, 0, e, "more than 16 points in the patch '%s'", p->patch->name);
     const Statement *s = statements;
-    Nearest near = {word, NULL, 0};
+    Nearest near = {.word = word};
     for (; s < statements + STATEMENTS && strcmp(word, s->word) != 0; s++) nearest_try(&near, s->word);
     bool is_title = s == statements;
     if (!p->has_title && !is_title) return text_error(line, 0, e, "%s", NO_TITLE);

@@ -7,23 +7,14 @@
 
 static const double SUM_IS_ONE = 1e-9; /* weights with such a sum stay as they are, so writing and reading is stable */
 
-void nearest_try(Nearest *n, const char *candidate) {
-    int d = text_distance(n->word, candidate), most = (int)strlen(n->word) / 3 + 1;
-    if (d <= most && (!n->best || d < n->distance)) {
-        n->best = candidate;
-        n->distance = d;
-    }
-}
-
 bool words_unknown(const Line *line, int i, Error *e, const char *what, const Nearest *n) {
-    if (n->best) return text_error(line, i, e, "unknown %s '%s' (did you mean '%s'?)", what, n->word, n->best);
-    return text_error(line, i, e, "unknown %s '%s'", what, n->word);
+    return nearest_error(n, what, text_place(&line->at, line->word[i]), e);
 }
 
 int words_choose(const Line *line, int i, const char *what, const char *const *words, int n, Error *e) {
     char word[GARMENT_NAME_MAX];
     if (!text_word(line, i, word, sizeof word, e)) return -1;
-    Nearest near = {word, NULL, 0};
+    Nearest near = {.word = word};
     for (int k = 0; k < n; k++) {
         if (strcmp(word, words[k]) == 0) return k;
         nearest_try(&near, words[k]);
@@ -37,7 +28,7 @@ bool words_part(const Line *line, int i, Role *out, Error *e) {
     if (!text_word(line, i, word, sizeof word, e)) return false;
     *out = role_find(word, (int)strlen(word));
     if (*out < ROLE_COUNT) return true;
-    Nearest near = {word, NULL, 0};
+    Nearest near = {.word = word};
     for (Role r = 0; r < ROLE_COUNT; r++) nearest_try(&near, role_name(r));
     return words_unknown(line, i, e, "body part", &near);
 }
@@ -45,7 +36,7 @@ bool words_part(const Line *line, int i, Role *out, Error *e) {
 bool words_ring_named(const Garment *g, const char *name, const Line *line, int i, int *out, Error *e) {
     *out = garment_find_ring(g, name);
     if (*out >= 0) return true;
-    Nearest near = {name, NULL, 0};
+    Nearest near = {.word = name};
     for (int k = 0; k < g->nrings; k++) nearest_try(&near, g->ring[k].name);
     return words_unknown(line, i, e, "ring", &near);
 }
@@ -58,7 +49,7 @@ bool words_ring(const Garment *g, const Line *line, int i, int *out, Error *e) {
 bool words_piece_named(const Garment *g, const char *name, const Line *line, int i, int *out, Error *e) {
     *out = garment_find_piece(g, name);
     if (*out >= 0) return true;
-    Nearest near = {name, NULL, 0};
+    Nearest near = {.word = name};
     for (int k = 0; k < g->npanels + g->npatches; k++) nearest_try(&near, garment_piece_name(g, k));
     return words_unknown(line, i, e, "panel or patch", &near);
 }
