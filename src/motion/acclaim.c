@@ -106,13 +106,21 @@ static FrameResult read_frame(Stream *s, const MotionSource *source, int *number
     return check_complete(s, source, *number, row, e);
 }
 
+/* Any text with a '#' in front comes here: before a skeleton is asked for, it must look like a motion. */
+static bool no_motion(Stream *s, Word w, Error *e) {
+    int n = w.length < 40 ? w.length : 40;
+    return stream_error(s, e, "neither BVH nor Acclaim AMC: found '%.*s'", n, w.start);
+}
+
 /* Comments and keywords in front of the frames. */
 static bool read_head(Opening *o, double *degrees, Error *e) {
     static const char *const asf_words[] = {":version", ":name", ":units", ":root", ":bonedata", ":hierarchy"};
     Stream *s = &o->in;
-    for (;;) {
+    for (bool keyword = false;;) {
         Word w = peek(s);
-        if (w.length == 0 || *w.start != ':') return true;
+        if (w.length == 0 || is_frame_number(w)) return true;
+        if (*w.start != ':') return keyword || no_motion(s, w, e);
+        keyword = true;
         for (size_t i = 0; i < sizeof asf_words / sizeof *asf_words; i++)
             if (word_is(w, asf_words[i]))
                 return stream_error(s, e, "this is an ASF skeleton without a motion; name the AMC file");
