@@ -49,7 +49,8 @@ head -c 3000 "$KITSUKE" >x.bvh; motion 'a binary file' 'binary'
 { head -n "$last" good.bvh; printf '\000\001\002'; } >x.bvh
 ok 'motion: bytes behind the last frame are no error' "$KITSUKE" dress -q x.bvh -g "$skirt" -o tail --format none
 printf 'v 0 0 0\nf 1 1 1\n' >x.bvh; motion 'some other text' 'x.bvh:1:1: error: neither BVH nor'
-printf '# A note\nfor the reader\n' >x.bvh; motion 'a text that begins like an AMC' 'x.bvh:2:1: error: neither BVH nor Acclaim'
+printf '# A note\nfor the reader\n' >x.bvh
+motion 'a text that begins like an AMC' 'x.bvh:2:1: error: neither BVH nor Acclaim'
 head -c 300 good.bvh >x.bvh; motion 'cut in the hierarchy' '^x.bvh:[0-9]+:[0-9]+: error: '
 sed '/^MOTION/,$d' good.bvh >x.bvh; motion 'no MOTION' 'ends before MOTION'
 sed '/^Frame Time/q' good.bvh >x.bvh; motion 'no row' "^x.bvh:$frame1:1: error: .*before the first frame"
