@@ -1,4 +1,5 @@
-/* One motion from end to end where every allocation fails once: a clean error, nothing written. */
+/* One motion from end to end where every allocation fails once: a clean error, nothing written. And
+   threads that help each other out. */
 #include "app/job.h"
 
 #include <stdlib.h>
@@ -6,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "folder.h"
+#include "motion/gait.h"
 #include "tap.h"
 
 static Wardrobe wardrobe;
@@ -25,7 +27,7 @@ static Error run(long fail, bool in_lane, int *frames) {
     Notes notes = {0};
     Job *job = NULL;
     if (job_open(&order, &lane, &notes, &arena, &result, &job))
-        for (int chunk; (chunk = job_take(job)) >= 0;) job_chunk(job, chunk, &lane, &watch);
+        for (int chunk = 0; chunk >= 0; chunk = job_take(job)) job_chunk(job, chunk, &lane, &watch);
     if (job) job_close(job, NULL);
     lane_free(&lane);
     arena_free(&arena);
@@ -77,8 +79,59 @@ static void test_every_allocation(bool in_lane) {
     remove(in_folder("walk/.done"));
 }
 
+typedef struct { JobOrder order; Lane lane; Arena arena; Notes notes; JobResult result; Job *job; } Opened;
+
+static bool open_one(Opened *o, const Input *of, SummaryRow *rows) {
+    *o = (Opened){.order = {.wardrobe = &wardrobe, .input = of, .key = {1, 2}, .workers = 2}, .result = {.row = rows}};
+    return job_open(&o->order, &o->lane, &o->notes, &o->arena, &o->result, &o->job);
+}
+
+static void close_one(Opened *o) {
+    if (o->job) job_close(o->job, NULL);
+    lane_free(&o->lane);
+    arena_free(&o->arena);
+}
+
+/* Makes a motion of 480 frames, which is two chunks. */
+static bool make_long(const char *path) {
+    Gait gait;
+    Error e = {0};
+    Output out;
+    gait_defaults(&gait);
+    gait.preset = "paper";
+    gait.frames_per_step = 8;
+    gait.steps = 60;
+    return output_open(&out, path, &e) && gait_write(&gait, out.file, &e) && output_close(&out, &e);
+}
+
+/* A thread has read a motion and got ready for it, but nothing came of it (here its folder cannot be
+   made); then it helps with a chunk of another motion. */
+static void test_help(void) {
+    char path[256];
+    Input lost = {.path = input.path, .name = "long.bvh/none"}, long_one = {.path = path, .name = "long"};
+    Opened a, b;
+    SummaryRow rows[2][2] = {{{0}}};
+    LaneWatch watch = {ignore, NULL};
+    snprintf(path, sizeof path, "%s", in_folder("long.bvh"));
+    settings.frames = (FrameSpan){.step = 8};
+    bool good = make_long(path) && !open_one(&a, &lost, rows[0]) && a.result.error.kind == ERR_OUTPUT &&
+                open_one(&b, &long_one, rows[1]);
+    OK(good, "a motion whose folder cannot be made, and a long one that is open");
+    if (good) {
+        int second = job_take(b.job);
+        job_chunk(b.job, second, &a.lane, &watch);
+        job_chunk(b.job, 0, &b.lane, &watch);
+        OK(second == 1 && job_is_over(b.job), "it has two chunks, and each thread dresses one");
+    }
+    close_one(&a);
+    close_one(&b);
+    OK(b.result.error.kind == ERR_NONE && b.result.frames == 60, "whole, whatever the helper was ready for before: %d frames %s",
+       b.result.frames, b.result.error.text);
+}
+
 static void test_repeated(void) {
     int frames;
+    settings.frames = (FrameSpan){1, 2, 1};
     Error e = run(0, false, &frames);
     OK(e.kind == ERR_NONE && frames == 2, "a second run replaces the first");
     for (int i = 0; i < wardrobe.ngarments; i++) free(wardrobe.garment[i]);
@@ -90,6 +143,7 @@ int main(void) {
         test_every_allocation(false);
         test_every_allocation(true);
     }
+    test_help();
     test_repeated();
     folder_remove();
     return tap_done();

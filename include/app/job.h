@@ -29,8 +29,9 @@ typedef struct {
 typedef struct Job Job;
 
 /* Reads the motion, finds its figure, fits body and garments, and only then makes the folder, or
-   clears it. `lane` is ready for the first chunk afterwards. Memory from arena, the job's own.
-   False with out->error; job_close must follow in any case but NULL. */
+   clears it. Chunk 0 is taken by then: the caller's, to be dressed on this lane, which is ready for
+   it. Memory from arena, the job's own. False with out->error; job_close must follow in any case
+   but NULL. */
 MUST_CHECK bool job_open(const JobOrder *order, Lane *lane, Notes *notes, Arena *arena, JobResult *out, Job **job);
 
 /* The number of a chunk that nobody has taken, or -1: then none is to be had now, because all are

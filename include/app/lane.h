@@ -13,7 +13,6 @@ typedef struct {
     ObjWriter obj;
     Wearer wearer;       /* motion, figure and body are the job's, the pose is its own */
     Dresser **dresser;   /* one for each garment */
-    bool is_fresh;       /* opened, and nothing dressed yet */
 } Lane;
 
 /* What a chunk gives, in the order of its frames. Arrays by the job. */
@@ -39,10 +38,11 @@ typedef struct { void (*frame)(void *context); void *context; } LaneWatch;
 
 void lane_free(Lane *lane);
 
-/* Makes the lane ready for a motion. What was in it is forgotten. */
+/* Makes the lane ready for one chunk of a motion. What was in it is forgotten. */
 MUST_CHECK bool lane_open(Lane *lane, const LaneWork *work, Error *e);
 
-/* Dresses a chunk from a state that is the same whatever was dressed before. */
+/* Dresses a chunk on a lane that was opened for it, so from a state that is the same whatever was
+   dressed before. */
 void lane_run(Lane *lane, const LaneWork *work, const Chunk *chunk, const LaneWatch *watch, ChunkResult *out);
 
 #endif

@@ -218,10 +218,13 @@ static void work(void *context, int index, int thread) {
     int chunk;
     (void)thread;
     for (Slot *slot; (slot = next_task(b, w, &chunk));) {
-        if (chunk < 0) {
-            if (open_job(b, w, slot)) show(b, slot);
-            else finish(b, slot);
+        if (chunk < 0 && !open_job(b, w, slot)) {
+            finish(b, slot);
             continue;
+        }
+        if (chunk < 0) {
+            show(b, slot);
+            chunk = 0;
         }
         Watcher watcher = {b, &b->item[slot->item]};
         job_chunk(slot->job, chunk, &w->lane, &(LaneWatch){frame_done, &watcher});

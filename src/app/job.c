@@ -99,6 +99,7 @@ bool job_open(const JobOrder *order, Lane *lane, Notes *notes, Arena *arena, Job
     j->work.unit = j->settings->output_unit > 0 ? 1 / j->settings->output_unit : 1;
     pthread_mutex_init(&j->guard, NULL);
     j->has_failed = !open_motion(j, lane, &out->error) || !open_output(j, &out->error);
+    j->taken = !j->has_failed;
     j->whole = out->seconds[STAGE_OPEN] = lap(&since);
     return !j->has_failed;
 }
@@ -162,12 +163,20 @@ static void clear(ChunkResult *r, int ngarments) {
     }
 }
 
+/* For chunk 0 the lane is open: whether garments fit is known before a folder is made. */
+static void dress(Job *j, int chunk, Lane *lane, const LaneWatch *watch, ChunkResult *out) {
+    Chunk c = chunks_get(&j->chunks, chunk);
+    clear(out, j->order.wardrobe->ngarments);
+    if (c.count == 0 || (chunk > 0 && !lane_open(lane, &j->work, &out->error))) return;
+    lane_run(lane, &j->work, &c, watch, out);
+    if (out->error.kind == ERR_NONE && out->frames != c.count)
+        error_set(&out->error, ERR_INTERNAL, "%d frames of chunk %d were dressed, not %d", out->frames, chunk, c.count);
+}
+
 void job_chunk(Job *j, int chunk, Lane *lane, const LaneWatch *watch) {
     double since = clock_seconds();
     Berth *b = &j->berth[chunk % j->nberths];
-    Chunk c = chunks_get(&j->chunks, chunk);
-    clear(&b->result, j->order.wardrobe->ngarments);
-    if (c.count > 0) lane_run(lane, &j->work, &c, watch, &b->result);
+    dress(j, chunk, lane, watch, &b->result);
     pthread_mutex_lock(&j->guard);
     j->whole += lap(&since);
     j->finished++;

@@ -37,9 +37,8 @@ bool lane_open(Lane *lane, const LaneWork *work, Error *e) {
     options.fixed_topology = s->fixed != 0;
     lane->obj.metre = work->unit;
     arena_reset(&lane->arena);
-    lane->is_fresh = wearer_share(work->wearer, work->unit, &lane->arena, &lane->wearer, e) &&
-                     wearer_put_on(&lane->wearer, work->wardrobe, &options, &lane->arena, &lane->dresser, e);
-    return lane->is_fresh;
+    return wearer_share(work->wearer, work->unit, &lane->arena, &lane->wearer, e) &&
+           wearer_put_on(&lane->wearer, work->wardrobe, &options, &lane->arena, &lane->dresser, e);
 }
 
 /* The mesh is in output units already: what was tested is what is written. */
@@ -133,8 +132,6 @@ void lane_run(Lane *lane, const LaneWork *work, const Chunk *chunk, const LaneWa
     Run r = {.lane = lane, .work = work, .settings = s, .chunk = chunk, .result = out};
     Error *e = &out->error;
     Take *take = NULL;
-    if (!lane->is_fresh && !lane_open(lane, work, e)) return;
-    lane->is_fresh = false;
     if (take_open(&w->motion, &w->figure, &chunk->span, s->rate, &lane->arena, &take, e)) {
         dress_frames(&r, take, watch, e);
         out->jumps = take_jumps(take);
