@@ -25,7 +25,7 @@ is_moved() {
             back()
             for (i = 1; i <= 3; i++) { d = p[i] - $(i + NF / 2 + 1); if (d > most || -d > most) bad++ }
             n++ }
-            END { if (bad || n < 100) { print FILENAME ": " bad + 0 " numbers of " 3 * n " are off"; exit 1 } }' || return 1
+            END { if (bad || n < 100) { print bad + 0 " numbers of " 3 * n " are off"; exit 1 } }' || return 1
     done
 }
 move 'function root() { v[1] += 1000000; v[2] += 300; v[3] -= 250000 }'
@@ -45,7 +45,10 @@ around() {
 }
 around walk.bvh >z_up.bvh
 around z_up.bvh >x_up.bvh
-tall() { awk '$1 == "v" { if ($3 > most) most = $3; if ($3 < least || !n++) least = $3 } END { printf "%.3f", most - least }' "$1"; }
+tall() {
+    awk '$1 == "v" { if ($3 > most) most = $3; if ($3 < least || !n++) least = $3 }
+        END { printf "%.3f", most - least }' "$1"
+}
 for up in z x; do
     like "$up up is seen" "$("$KITSUKE" inspect ${up}_up.bvh)" "^  up +$up$"
     dress ${up}_up.bvh -o up --frames 3
@@ -71,7 +74,8 @@ mirrored() {
     for file in mirrors/walk/*.obj; do
         awk -v a="$(sides "$file" 1)" -v b="$(sides "mirrors/mirror/${file##*/}" -1)" 'BEGIN {
             split(a, p, " "); n = split(b, q, " ")
-            for (i = 1; i <= n; i++) { d = p[i] - q[i]; if (d > 2e-4 || -d > 2e-4) { print a; print b; exit 1 } } }' || return 1
+            for (i = 1; i <= n; i++) { d = p[i] - q[i]; if (d > 2e-4 || -d > 2e-4) { print a; print b; exit 1 } } }' ||
+            return 1
     done
 }
 ok 'a mirrored walk is mirrored' mirrored

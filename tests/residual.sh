@@ -41,15 +41,16 @@ for run in global/squat push/squat; do
         file=${mesh##*/} garment=${file%%.*} frame=$(echo "${file#*.}" | sed 's/^0*//; s/\..*//')
         [ "$garment" = body ] && continue
         body=$run/body.${file#*.}
-        is "$mesh: body edges through the garment" "$(value "$run/stats.csv" "$frame" "$garment" residual_edges limb_edges)" \
+        counted() { value "$run/stats.csv" "$frame" "$garment" "$@"; }
+        is "$mesh: body edges through the garment" "$(counted residual_edges limb_edges)" \
             "$(count "$body" "$mesh")"
         cloth=$(count "$mesh" "$body")
-        is "$mesh: garment edges through the body" "$(value "$run/stats.csv" "$frame" "$garment" residual_cloth limb_cloth)" \
-            "$cloth"
+        is "$mesh: garment edges through the body" "$(counted residual_cloth limb_cloth)" "$cloth"
         total=$((total + cloth))
     done
 done
 is 'there was something to count' "$((total > 100))" 1
-is 'what is no collider counts as a limb' "$(value push/squat/stats.csv 80 sheet limb_edges | sed 's/^[1-9].*/some/')" some
+limb=$(value push/squat/stats.csv 80 sheet limb_edges)
+is 'what is no collider counts as a limb' "$((limb > 0))" 1
 
 done_testing
