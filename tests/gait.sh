@@ -37,6 +37,13 @@ is '--frames-per-step and --steps' "$(sed -n 's/^Frames: //p' short.bvh)" 30
 is 'frame time from speed and step length' "$(sed -n 's/^Frame Time: //p' timed.bvh)" 0.02000000
 "$KITSUKE" walk --height 1.2 >child.bvh
 like '--height' "$("$KITSUKE" inspect child.bvh)" 'height  *1\.[12][0-9]* m'
+sizes=''
+for height in 0.5 0.55 0.6 0.7 0.8 0.825 0.83 0.9 1 1.3 2 2.2 2.5; do
+    "$KITSUKE" walk --height "$height" --steps 2 >sized.bvh
+    sizes="$sizes$("$KITSUKE" inspect sized.bvh 2>&1 | awk -v want="$height" '/^  warning/ { print want ":", $0 }
+        $1 == "height" && ($2 > 1.02 * want || $2 < 0.98 * want) { print want ": " $2 " m" }')"
+done
+is 'a child, an adult and a giant are read as tall as they are' "$sizes" ''
 is 'the same walk has the same bytes' "$("$KITSUKE" walk | cksum)" "$("$KITSUKE" walk | cksum)"
 
 refuses() { # refuses PATTERN ARGUMENT...: exit 2, that word, and no file

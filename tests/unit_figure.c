@@ -179,8 +179,8 @@ static void test_units(void) {
         {1 / 30.48, "foot", 1.757}, {0.45 / 2.54, "5.644 cm", 1.757},
         {0.6, "cm", 1.054}, {0.006, "m", 1.054}, /* a child */
         {0.82, "cm", 1.441}, {1.19, "cm", 2.091}, /* the smallest and the tallest adult */
-        {3, "unknown", 1.703}, {1e-4, "unknown", 1.703}, {1e5, "unknown", 1.703},
-        {1.3, "cm", 2.284}, /* a giant */
+        {0.3, "unknown", 1.703}, {0.003, "unknown", 1.703}, {1e-4, "unknown", 1.703}, {1e5, "unknown", 1.703},
+        {1.3, "cm", 2.284}, {3, "mm", 0.527}, /* a giant, a baby */
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const char *path = in_folder("scaled.bvh");

@@ -67,6 +67,6 @@ Mat3 gait_pitch(double degrees);
 
 /* HIERARCHY and the head of MOTION, and one line of it. */
 void gait_write_head(const GaitBody *body, int frames, double frame_time, FILE *out);
-void gait_write_pose(const GaitPose *pose, FILE *out);
+void gait_write_pose(const GaitBody *body, const GaitPose *pose, FILE *out);
 
 #endif

@@ -130,16 +130,17 @@ static double ankle_height(const Skeleton *skeleton, const Sample *s, const Rest
 
 /* ---- unit ---- */
 
-/* common: also where that makes the figure a child or a giant. */
-typedef struct { const char *name; double metres; bool common; } Unit;
+/* least: the smallest child that is seen in this unit; 0 where only adults are. Babies are half a metre long,
+   but rigs of no unit at all may be 50 units tall, or half a one. */
+typedef struct { const char *name; double metres, least; } Unit;
 static const Unit units[] = {
-    {"cm", 0.01, true}, {"m", 1, true}, {"mm", 0.001, true}, {"inch", 0.0254, false},
-    {"5.644 cm", 0.0254 / 0.45, false}, {"dm", 0.1, false}, {"foot", 0.3048, false},
+    {"cm", 0.01, 0.7}, {"m", 1, 0.7}, {"mm", 0.001, 0.45}, {"inch", 0.0254, 0},
+    {"5.644 cm", 0.0254 / 0.45, 0}, {"dm", 0.1, 0}, {"foot", 0.3048, 0},
 };
 enum { NUNITS = sizeof units / sizeof units[0] };
 
 /* Statures, metres. */
-static const double CHILD_LEAST = 0.7, ADULT_LEAST = 1.4, ADULT_MOST = 2.1, GIANT_MOST = 2.6;
+static const double ADULT_LEAST = 1.4, ADULT_MOST = 2.1, GIANT_MOST = 2.6;
 
 /* stature: in file units. An adult in any unit comes before a child or a giant in a common one, so
    a child of 0.55 to 0.82 m in centimetres is taken for an adult in inches: those are many more. */
@@ -156,8 +157,8 @@ static void find_unit(double stature, double file_unit, Figure *f) {
     for (int odd = 0; odd < 2; odd++)
         for (int i = 0; i < NUNITS; i++) {
             double size = stature * units[i].metres;
-            if (odd && !units[i].common) continue;
-            if (size < (odd ? CHILD_LEAST : ADULT_LEAST) || size > (odd ? GIANT_MOST : ADULT_MOST)) continue;
+            if (odd && units[i].least == 0) continue;
+            if (size < (odd ? units[i].least : ADULT_LEAST) || size > (odd ? GIANT_MOST : ADULT_MOST)) continue;
             f->unit = units[i].metres;
             f->unit_name = units[i].name;
             return;

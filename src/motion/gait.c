@@ -115,7 +115,7 @@ static bool write_paper(const Gait *g, double frame_time, FILE *out) {
     gait_write_head(&body, frames, frame_time, out);
     for (int i = 0; i < frames; i++) {
         GaitPose pose = gait_paper_pose(g, &body, i);
-        gait_write_pose(&pose, out);
+        gait_write_pose(&body, &pose, out);
     }
     return true;
 }
@@ -128,7 +128,7 @@ static bool write_squat(const Gait *g, double frame_time, FILE *out) {
     for (int i = 0; i < frames; i++) {
         double place = (double)(i % cycle - per) / (cycle - per), depth = 0.5 - 0.5 * cos(2 * PI * fmax(0, place));
         GaitPose pose = gait_squat_pose(&body, i < g->steps * cycle ? smoothstep(0, 1, depth) : 0);
-        gait_write_pose(&pose, out);
+        gait_write_pose(&body, &pose, out);
     }
     return true;
 }
@@ -141,7 +141,7 @@ static bool write_walk(const Gait *g, double frame_time, FILE *out, Error *e) {
     if (good) gait_write_head(&plan.body, walk.frames, frame_time, out);
     for (int i = 0; good && i < walk.frames; i++) {
         GaitPose pose = gait_walk_pose(&walk, i);
-        gait_write_pose(&pose, out);
+        gait_write_pose(&plan.body, &pose, out);
     }
     arena_free(&arena);
     return good;

@@ -135,7 +135,14 @@ static double printed(double x) {
     return fabs(x) < 0.00005 ? 0 : x;
 }
 
-static void write_offset(Vec3 v, FILE *out) {
+/* A file cannot say its unit, and readers guess it from the size: 83 cm could be 83 inches. What is smaller
+   is written in millimetres. */
+static double per_centimetre(const GaitBody *body) {
+    return body->height < 83 ? 10 : 1;
+}
+
+static void write_offset(const GaitBody *body, Vec3 v, FILE *out) {
+    v = vec_scale(v, per_centimetre(body));
     fprintf(out, "OFFSET %.4f %.4f %.4f\n", printed(v.x), printed(v.y), printed(v.z));
 }
 
@@ -149,7 +156,7 @@ static void write_joint(const GaitBody *body, int joint, int depth, FILE *out) {
     indent(depth, out);
     fputs("{\n", out);
     indent(depth + 1, out);
-    write_offset(body->offset[joint], out);
+    write_offset(body, body->offset[joint], out);
     indent(depth + 1, out);
     if (joint == GAIT_HIPS) fputs("CHANNELS 6 Xposition Yposition Zposition Yrotation Xrotation Zrotation\n", out);
     else fputs("CHANNELS 3 Xrotation Yrotation Zrotation\n", out);
@@ -161,7 +168,7 @@ static void write_joint(const GaitBody *body, int joint, int depth, FILE *out) {
         indent(depth + 1, out);
         fputs("{\n", out);
         indent(depth + 2, out);
-        write_offset(body->tip[joint], out);
+        write_offset(body, body->tip[joint], out);
         indent(depth + 1, out);
         fputs("}\n", out);
     }
@@ -175,8 +182,8 @@ void gait_write_head(const GaitBody *body, int frames, double frame_time, FILE *
     fprintf(out, "MOTION\nFrames: %d\nFrame Time: %.8f\n", frames, frame_time);
 }
 
-void gait_write_pose(const GaitPose *pose, FILE *out) {
-    Vec3 p = pose->hips, t = pose->turn[GAIT_HIPS];
+void gait_write_pose(const GaitBody *body, const GaitPose *pose, FILE *out) {
+    Vec3 p = vec_scale(pose->hips, per_centimetre(body)), t = pose->turn[GAIT_HIPS];
     fprintf(out, "%.4f %.4f %.4f %.4f %.4f %.4f", printed(p.x), printed(p.y), printed(p.z), printed(t.y), printed(t.x),
             printed(t.z));
     for (int i = GAIT_HIPS + 1; i < GAIT_JOINTS; i++) {
