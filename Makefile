@@ -149,7 +149,7 @@ fuzz-run: $(FUZZ)
 	@for f in $(FUZZ); do t=$${f##*/fuzz_}; echo "$$t:"; $(if $(FUZZ_SECONDS),mkdir -p build/corpus/$$t; \
 	$$f -max_total_time=$(FUZZ_SECONDS) build/corpus/$$t tests/fuzz/seeds/$$t,$$f tests/fuzz/seeds/$$t/*) || exit 1; done
 $(OUT)/fuzz_%: tests/fuzz/fuzz_%.c $(if $(FUZZ_SECONDS),,tests/fuzz/replay.c) $(OUT)/core.a | build/deps
-	$(Q)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(if $(FUZZ_SECONDS),-fsanitize=fuzzer) $(LDFLAGS) $^ $(LIBS) -lstdc++ -o $@
+	$(Q)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(if $(FUZZ_SECONDS),-fsanitize=fuzzer -fsanitize-link-c++-runtime) $(LDFLAGS) $^ $(LIBS) -lstdc++ -o $@
 
 format:						## clang-format over the .c files (headers are set by hand)
 	clang-format -i src/*/*.c src/*/*.cpp tests/*.c tests/fuzz/*.c

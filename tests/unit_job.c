@@ -125,8 +125,8 @@ static void test_help(void) {
     }
     close_one(&a);
     close_one(&b);
-    OK(b.result.error.kind == ERR_NONE && b.result.frames == 60, "whole, whatever the helper was ready for before: %d frames %s",
-       b.result.frames, b.result.error.text);
+    OK(b.result.error.kind == ERR_NONE && b.result.frames == 60, "whole: %d frames %s", b.result.frames,
+       b.result.error.text);
 }
 
 static void test_repeated(void) {

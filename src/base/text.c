@@ -157,8 +157,8 @@ bool text_real(const Line *line, int i, double *out, Error *e) {
     if (stop != end)
         return text_error(line, i, e, "expected a number, found '%.*s'", line->length[i] > 40 ? 40 : line->length[i],
                           s);
-    if (!(*out >= -1e12 && *out <= 1e12)) return text_error(line, i, e, "number out of range");
-    return true;
+    *out += 0.0; /* -0 is 0 */
+    return (*out >= -1e12 && *out <= 1e12) || text_error(line, i, e, "number out of range");
 }
 
 bool text_int(const Line *line, int i, int low, int high, int *out, Error *e) {

@@ -58,6 +58,7 @@ static bool other_name(Mirror *m, const char *name, char out[GARMENT_NAME_MAX]) 
         return no(m, "the mirrored name of '%s' is longer than %d bytes", name, GARMENT_NAME_MAX - 1);
     if (garment_find_ring(m->g, out) >= 0 || garment_find_piece(m->g, out) >= 0)
         return no(m, "the mirror image of '%s' has a name that is taken: '%s'", name, out);
+    if (strchr(out, '.')) return no(m, "'.' in the mirrored name '%s'", out); /* RING.STATION is split there */
     return check_name(out, m->why);
 }
 

@@ -97,7 +97,6 @@ bool words_piece_side(const Garment *g, const Line *line, int i, int *piece, Sid
 
 bool words_number(const Line *line, int i, double low, double high, double *out, Error *e) {
     if (!text_real(line, i, out, e)) return false;
-    *out += 0.0;
     return (*out >= low && *out <= high) || text_error(line, i, e, "expected a number from %g to %g", low, high);
 }
 
