@@ -250,7 +250,7 @@ bool figure_measure(const Motion *m, const FigureOptions *options, const Sample 
     find_ends(&m->skeleton, s, f);
     *rest = rest_find(&m->skeleton, f);
     f->rest = rest->name;
-    f->up = options->up ? options->up : upright_find(s, f, rest);
+    f->up = options->up ? options->up : upright_find(s, f, rest, (m->nframes - 1) * m->frame_time, notes);
     f->upright = upright_turn(f->up);
 
     Lengths measured = measure_lengths(&m->skeleton, s, rest, f);

@@ -1,14 +1,20 @@
 /* Up is where heads are, most of the time. But people sit, bow, crawl and lie, some for the
    whole take, so three witnesses are heard: the body's axis, the floor (the lowest joint stays
-   near zero along the up axis, not along others) and the zero pose, where that is human. */
+   near zero along the up axis, not along others) and the zero pose, where that is human. A
+   still pose may be a handstand as well as a stance, so what a body does in a moment says half
+   as much as what it does for seconds. Where the second best is near, a note tells. */
 #include "figure/upright.h"
 
-/* Weights of the witnesses against the body's axis, which has up to 1. */
-static const double FLOOR = 0.8, ZERO_POSE = 0.3;
+/* Weights of the witnesses against the body's axis, which has up to 1 in a take of LONG seconds. */
+static const double FLOOR = 0.8, ZERO_POSE = 0.6, MOMENT = 0.5, LONG = 3;
 /* Without a human zero pose y is up in most files, then z; the other four hardly ever. */
 static const double HABIT_Y = 0.3, HABIT_Z = 0.15, ODD = 0.6;
-/* The floor is "near zero" within this part of hips to shoulders, and no witness at twice that. */
-static const double NEAR_ZERO = 0.35;
+/* The lowest joint of one who stands or lies on zero, in parts of hips to shoulders: a toe is over the sole,
+   floors are not quite level. Twice as far is no witness. The hips of one who floats about the origin are
+   nearer to it than those of one who lies there. */
+static const double UNDER_ZERO = 0.15, OVER_ZERO = 0.35, FLAT_HIPS = 0.12;
+/* A lead that is told of. */
+static const double NARROW = 0.25;
 
 static Vec3 axis_of(char up) {
     double sign = up >= 'x' ? 1 : -1;
@@ -44,28 +50,35 @@ static Stance find_stance(const Sample *s, const Figure *f) {
 
 /* 1 where the lowest joint of the body stays near zero along the axis, 0 where it does not. */
 static double stands_on_zero(const Sample *s, const Figure *f, Vec3 axis, double torso) {
-    double off = 0;
+    double off = 0, hips = 0;
     for (int i = 0; i < s->count; i++) {
         double lowest = 1e300;
         for (int r = 0; r < ROLE_COUNT; r++)
             if (f->roles.joint[r] >= 0) lowest = fmin(lowest, vec_dot(axis, sample_point(s, i, f->roles.joint[r])));
-        off += fabs(lowest) / s->count;
+        off += (lowest < 0 ? -lowest / UNDER_ZERO : lowest / OVER_ZERO) / s->count;
+        hips += vec_dot(axis, sample_point(s, i, f->roles.joint[ROLE_PELVIS])) / s->count;
     }
-    return 1 - smoothstep(NEAR_ZERO, 2 * NEAR_ZERO, off / (torso + 1e-300));
+    if (hips < FLAT_HIPS * torso) return 0;
+    return 1 - smoothstep(1, 2, off / (torso + 1e-300));
 }
 
-char upright_find(const Sample *s, const Figure *f, const Rest *rest) {
+char upright_find(const Sample *s, const Figure *f, const Rest *rest, double seconds, Notes *notes) {
+    static const char axes[] = "yzxYZX";
     Stance stance = find_stance(s, f);
-    double best = -1e300;
+    double best = -1e300, next = -1e300, trust = MOMENT + (1 - MOMENT) * smoothstep(0, LONG, seconds);
     char up = 'y';
-    for (const char *c = "yzxYZX"; *c; c++) {
+    for (const char *c = axes; *c; c++) {
         Vec3 axis = axis_of(*c);
-        double score = vec_dot(axis, stance.axis) + FLOOR * stands_on_zero(s, f, axis, stance.torso);
+        double score = trust * vec_dot(axis, stance.axis) + FLOOR * stands_on_zero(s, f, axis, stance.torso);
         if (*c != 'y' && *c != 'z') score -= ODD;
         if (rest->human) score += vec_dot(axis, mat_column(rest->frame, 1)) > 0.9 ? ZERO_POSE : 0;
         else score += *c == 'y' ? HABIT_Y : *c == 'z' ? HABIT_Z : 0;
-        if (score > best) best = score, up = *c;
+        if (score > best) next = best, best = score, up = *c;
+        else if (score > next) next = score;
     }
+    if (best - next < NARROW)
+        notes_add(notes, (Place){0}, "up axis is not certain: taken for %s%c; --up tells it", up < 'a' ? "-" : "",
+                  up < 'a' ? up - 'A' + 'a' : up);
     return up;
 }
 
