@@ -139,7 +139,7 @@ mv tpose.bvh hang.bvh arms_*.bvh bow.bvh twist.bvh ./*sit.bvh step.bvh squat.bvh
 dress poses.in -o poses
 "$KITSUKE" inspect poses.in/*.bvh >told
 is 'up is up in all of them' "$(grep '^  up' told | uniq -c | tr -s ' ')" ' 18 up y'
-like 'and doubt is told' "$(sed -n '/handstand.bvh/,/^$/p' told)" 'warning     up axis is not certain: taken for y; --up'
+like 'and doubt is told' "$(sed -n '/handstand.bvh/,/^$/p' told)" 'up axis is not certain: taken for y; --up tells it'
 for file in poses.in/*.bvh; do
     name=$(basename "$file" .bvh)
     ok "$name: sound meshes" sound "$name"
