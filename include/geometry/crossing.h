@@ -5,6 +5,7 @@
 
 #include "base/arena.h"
 #include "geometry/mesh.h"
+#include "geometry/tile.h"
 
 typedef struct { int edge, triangle; } Crossing;
 
@@ -16,17 +17,14 @@ typedef struct {
 } CrossingCount;
 
 /* Boxes over one set of segments or triangles, made for repeated queries. Memory is taken at
-   crossing_reserve and kept; building allocates nothing. Private inside. */
-typedef struct CrossingTile CrossingTile;   /* sixteen boxes */
-typedef struct CrossingSieve CrossingSieve; /* sixteen segments or planes */
+   crossing_reserve and kept; building allocates nothing. Private inside but for `path`. */
 enum { CROSSING_LEVELS = 3 };
 typedef struct {
+    TilePath path;        /* how boxes are made and compared; a search goes by that of the edges */
     int capacity, count;  /* items */
     const Vec3 *position; /* borrowed, as is the next: both must stay until the next build */
     const int *index;     /* per item 2 (segments) or 3 (triangles) vertices */
-    float reach;          /* largest magnitude of a coordinate */
-    CrossingTile *level[CROSSING_LEVELS]; /* boxes of items, of tiles of items, of tiles of those */
-    CrossingSieve *sieve; /* per tile of items */
+    Tile *level[CROSSING_LEVELS]; /* boxes of items, of tiles of items, of tiles of those */
 } CrossingSet;
 
 MUST_CHECK bool crossing_reserve(CrossingSet *set, int capacity, Arena *arena, Error *e);

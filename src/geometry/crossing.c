@@ -1,244 +1,129 @@
 /* Most pairs are far apart, so the work is to not look at them.
 
-   Sixteen boxes that stand side by side in arrays make a tile: one loop tests a box against all
-   sixteen, and the compiler turns that loop into a few vector instructions. Items are tiled in
-   the order they come, their tiles are tiled again, and these once more; a search goes down
-   both stacks at once and enters only pairs of tiles whose boxes overlap. No tree is balanced
-   and nothing is sorted, so building is one pass over the items.
+   Items are boxed in tiles of sixteen (geometry/tile) in the order they come, their tiles are tiled
+   again, and these once more; a search goes down both stacks at once and enters only pairs of
+   tiles whose boxes overlap. No tree is balanced and nothing is sorted, so building is one pass
+   over the items.
 
-   Boxes are floats. Rounding keeps order: if x <= y then (float)x <= (float)y. So the rounded
-   boxes of things that touch still touch, and how many overlap is the same on every machine.
-
-   Pairs whose boxes overlap meet one more sieve of sixteen lanes: are both ends of the edge on
-   one side of the triangle's plane, further from it than floats can err? The few that are left
-   are decided exactly, by predicate_segment_triangle. */
+   Of the pairs whose own boxes overlap, most still have both ends of the edge on one side of the
+   triangle's plane, farther from it than doubles can err. The few that are left are decided
+   exactly, by predicate_segment_triangle. */
 #include "geometry/crossing.h"
 
 #include <float.h>
 
 #include "geometry/predicate.h"
 
-enum { LANES = 16, TOP = CROSSING_LEVELS - 1 };
+enum { LANES = TILE_LANES, TOP = CROSSING_LEVELS - 1 };
 
-/* Box k is low[x][k] .. high[x][k] for the axes x = 0, 1, 2. A lane without a box is empty: low
-   is larger than high, and it overlaps nothing. */
-struct CrossingTile { _Alignas(64) float low[3][LANES], high[3][LANES]; };
-
-/* What the second sieve needs. Segments: v[0..2] is one end, v[3..5] the other. Triangles:
-   v[0..2] is the normal n of the plane n x = v[3], so long that |nx| + |ny| + |nz| <= 1; zero
-   where the triangle has none. */
-struct CrossingSieve { _Alignas(64) float v[6][LANES]; };
-
+static int lowest(unsigned lanes) { return __builtin_ctz(lanes); }
 static int tiles(int n) { return n / LANES + (n % LANES != 0); }
 
 bool crossing_reserve(CrossingSet *set, int capacity, Arena *arena, Error *e) {
     *set = (CrossingSet){.capacity = capacity};
     for (int l = 0, n = tiles(capacity); l <= TOP; l++, n = tiles(n)) {
-        set->level[l] = ARENA_NEW(arena, CrossingTile, n, e);
+        set->level[l] = ARENA_NEW(arena, Tile, n, e);
         if (!set->level[l]) return false;
     }
-    set->sieve = ARENA_NEW(arena, CrossingSieve, tiles(capacity), e);
-    return set->sieve != NULL;
+    return true;
 }
 
 /* --- building --- */
 
-/* Written so that each is one machine instruction. */
-static inline float lesser(float a, float b) { return a < b ? a : b; }
-static inline float larger(float a, float b) { return a > b ? a : b; }
-
-/* The least and the largest of sixteen, by halves, which vectors can do. */
-static float least(const float v[LANES]) {
-    float m[8];
-    for (int k = 0; k < 8; k++) m[k] = lesser(v[k], v[k + 8]);
-    for (int k = 0; k < 4; k++) m[k] = lesser(m[k], m[k + 4]);
-    return lesser(lesser(m[0], m[1]), lesser(m[2], m[3]));
-}
-
-static float largest(const float v[LANES]) {
-    float m[8];
-    for (int k = 0; k < 8; k++) m[k] = larger(v[k], v[k + 8]);
-    for (int k = 0; k < 4; k++) m[k] = larger(m[k], m[k + 4]);
-    return larger(larger(m[0], m[1]), larger(m[2], m[3]));
-}
-
-static void empty_lanes(CrossingTile *t, int first) {
-    for (int x = 0; x < 3; x++)
-        for (int k = first; k < LANES; k++) t->low[x][k] = INFINITY, t->high[x][k] = -INFINITY;
-}
-
-/* The boxes of the tiles below, level by level, and how far the whole set reaches. */
-static void build_levels(CrossingSet *set) {
-    int n = tiles(set->count);
-    for (int l = 1; l <= TOP; l++) {
-        for (int t = 0; t < n; t++) {
-            const CrossingTile *below = &set->level[l - 1][t];
-            CrossingTile *above = &set->level[l][t / LANES];
-            for (int x = 0; x < 3; x++) {
-                above->low[x][t % LANES] = least(below->low[x]);
-                above->high[x][t % LANES] = largest(below->high[x]);
-            }
-        }
-        if (n % LANES) empty_lanes(&set->level[l][n / LANES], n % LANES);
-        n = tiles(n);
-    }
-    set->reach = 0;
-    for (int t = 0; t < n; t++)
-        for (int x = 0; x < 3; x++) {
-            const CrossingTile *top = &set->level[TOP][t];
-            set->reach = larger(set->reach, larger(-least(top->low[x]), largest(top->high[x])));
-        }
-}
-
-/* The corners of up to sixteen items, turned into lanes: v[3 c + x][k] is coordinate x of corner c
-   of item k. */
-static void gather(const CrossingSet *set, int first, int items, int corners, double v[9][LANES]) {
-    const int *i = set->index + (size_t)first * (size_t)corners;
-    for (int k = 0; k < items; k++)
-        for (int c = 0; c < corners; c++) {
-            Vec3 p = set->position[*i++];
-            v[3 * c][k] = p.x, v[3 * c + 1][k] = p.y, v[3 * c + 2][k] = p.z;
-        }
-}
-
-static void edge_lanes(double v[9][LANES], CrossingTile *box, CrossingSieve *sieve) {
-    for (int i = 0; i < 6; i++)
-        for (int k = 0; k < LANES; k++) sieve->v[i][k] = (float)v[i][k];
-    for (int x = 0; x < 3; x++)
-        for (int k = 0; k < LANES; k++) {
-            box->low[x][k] = lesser(sieve->v[x][k], sieve->v[x + 3][k]);
-            box->high[x][k] = larger(sieve->v[x][k], sieve->v[x + 3][k]);
-        }
-}
-
-/* The normal is divided by the sum of the magnitudes of all products in it, of which it is at
-   most the whole: then its error is a few roundings however thin the triangle. */
-static void triangle_lanes(double v[9][LANES], CrossingTile *box, CrossingSieve *sieve) {
-    for (int x = 0; x < 3; x++)
-        for (int k = 0; k < LANES; k++) {
-            float a = (float)v[x][k], b = (float)v[x + 3][k], c = (float)v[x + 6][k];
-            box->low[x][k] = lesser(lesser(a, b), c);
-            box->high[x][k] = larger(larger(a, b), c);
-        }
-    for (int k = 0; k < LANES; k++) {
-        double px = v[3][k] - v[0][k], py = v[4][k] - v[1][k], pz = v[5][k] - v[2][k];
-        double qx = v[6][k] - v[0][k], qy = v[7][k] - v[1][k], qz = v[8][k] - v[2][k];
-        double yz = py * qz, zy = pz * qy, zx = pz * qx, xz = px * qz, xy = px * qy, yx = py * qx;
-        double sum = fabs(yz) + fabs(zy) + fabs(zx) + fabs(xz) + fabs(xy) + fabs(yx), scale = 1 / (sum + 1e-300);
-        double nx = (yz - zy) * scale, ny = (zx - xz) * scale, nz = (xy - yx) * scale;
-        sieve->v[0][k] = (float)nx, sieve->v[1][k] = (float)ny, sieve->v[2][k] = (float)nz;
-        sieve->v[3][k] = (float)(nx * v[0][k] + ny * v[1][k] + nz * v[2][k]);
-    }
-}
-
-static void build(CrossingSet *set, const Vec3 *position, const int *index, int n, int corners,
-                  void (*lanes)(double v[9][LANES], CrossingTile *box, CrossingSieve *sieve)) {
-    double v[9][LANES] = {{0}}; /* lanes beyond the last item keep what was there: finite, and emptied below */
+static void build(CrossingSet *set, const Vec3 *position, const int *index, int n, int corners, TileBoxes *boxes) {
     set->position = position;
     set->index = index;
     set->count = n;
-    for (int t = 0; t < tiles(n); t++) {
-        int items = n - t * LANES < LANES ? n - t * LANES : LANES;
-        gather(set, t * LANES, items, corners, v);
-        lanes(v, &set->level[0][t], &set->sieve[t]);
-        empty_lanes(&set->level[0][t], items);
+    for (int t = 0, left = n; left > 0; t++, left -= LANES) {
+        const int *first = index + (size_t)t * LANES * (size_t)corners;
+        boxes(&set->level[0][t], position, first, left < LANES ? left : LANES, &set->level[1][t / LANES], t % LANES);
     }
-    build_levels(set);
+    for (int l = 1; l <= TOP; l++) {
+        n = tiles(n);
+        if (n % LANES) tile_empty(&set->level[l][n / LANES], n % LANES);
+        for (int t = 0; l < TOP && t < tiles(n); t++)
+            tile_sum(&set->level[l][t], &set->level[l + 1][t / LANES], t % LANES);
+    }
 }
 
 void crossing_build_edges(CrossingSet *set, const Vec3 *position, const Edge *edge, int n) {
-    build(set, position, (const int *)edge, n, 2, edge_lanes);
+    build(set, position, (const int *)edge, n, 2, tile_machine(set->path)->segments);
 }
 
 void crossing_build_triangles(CrossingSet *set, const Vec3 *position, const Triangle *triangle, int n) {
-    build(set, position, (const int *)triangle, n, 3, triangle_lanes);
+    build(set, position, (const int *)triangle, n, 3, tile_machine(set->path)->triangles);
 }
 
-/* --- the two sieves --- */
+/* --- the plane --- */
 
-/* A set of lanes: the low half has a bit for each, the high half their number, so that one sum
-   over sixteen lanes tells both. */
-typedef unsigned Lanes;
-#define LANE(k) ((1u << (k)) + 0x10000u)
-static const Lanes lane[LANES] = {LANE(0), LANE(1), LANE(2), LANE(3), LANE(4), LANE(5), LANE(6), LANE(7),
-                                  LANE(8), LANE(9), LANE(10), LANE(11), LANE(12), LANE(13), LANE(14), LANE(15)};
-static unsigned lane_bits(Lanes found) { return found & 0xFFFF; }
-static int lane_count(Lanes found) { return (int)(found >> 16); }
-static int lowest_lane(unsigned bits) { return __builtin_ctz(bits); }
+/* n (x - origin) is the volume under x. Its error is at most 54 u size^2 |x - origin|, u = 2^-53
+   (see predicate.c: nine roundings of six products); `slack` is 2^-47 size^2, that is 64 u. */
+typedef struct { Vec3 origin, n; double slack; } Plane;
 
-/* The boxes of tile a that overlap box k of tile b. */
-static Lanes overlapping(const CrossingTile *a, const CrossingTile *b, int k) {
-    float lx = b->low[0][k], ly = b->low[1][k], lz = b->low[2][k];
-    float hx = b->high[0][k], hy = b->high[1][k], hz = b->high[2][k];
-    Lanes found = 0;
-    for (int i = 0; i < LANES; i++) {
-        bool yes = (a->low[0][i] <= hx) & (a->high[0][i] >= lx) & (a->low[1][i] <= hy) & (a->high[1][i] >= ly)
-                 & (a->low[2][i] <= hz) & (a->high[2][i] >= lz);
-        found += yes ? lane[i] : 0;
-    }
-    return found;
+static double greater(double a, double b) { return a > b ? a : b; }
+static double extent(Vec3 v) { return greater(fabs(v.x), greater(fabs(v.y), fabs(v.z))); }
+
+static Plane plane_of(const CrossingSet *triangles, int triangle) {
+    const int *i = triangles->index + 3 * (size_t)triangle;
+    Vec3 a = triangles->position[i[0]];
+    Vec3 u = vec_sub(triangles->position[i[1]], a), v = vec_sub(triangles->position[i[2]], a);
+    double size = greater(extent(u), extent(v));
+    return (Plane){a, vec_cross(u, v), 0x1p-47 * size * size};
 }
 
-/* The segments that may reach the plane of triangle k. */
-static Lanes reaching(const CrossingSieve *segments, const CrossingSieve *triangles, int k, float slack) {
-    const float(*p)[LANES] = segments->v, (*q)[LANES] = segments->v + 3;
-    float nx = triangles->v[0][k], ny = triangles->v[1][k], nz = triangles->v[2][k], w = triangles->v[3][k];
-    Lanes found = 0;
-    for (int i = 0; i < LANES; i++) {
-        float a = nx * p[0][i] + ny * p[1][i] + nz * p[2][i] - w;
-        float b = nx * q[0][i] + ny * q[1][i] + nz * q[2][i] - w;
-        bool above = lesser(a, b) > slack, below = larger(a, b) < -slack;
-        found += (above | below) ? 0 : lane[i];
-    }
-    return found;
+/* On which side x is for certain: 1, -1, or 0 where doubles cannot tell. */
+static int side_of(const Plane *plane, Vec3 x) {
+    Vec3 d = vec_sub(x, plane->origin);
+    double volume = vec_dot(plane->n, d), slack = plane->slack * extent(d) + DBL_MIN;
+    return (volume > slack) - (volume < -slack);
 }
 
 /* --- searching --- */
 
 typedef struct {
     const CrossingSet *edges, *triangles;
-    float slack;      /* floats err less in the distance to a plane */
-    bool first_only;
+    const TileMachine *machine;
     Crossing *out;
     int capacity, written;
     CrossingCount *count;
+    bool first_only;
 } Search;
 
 /* All below return true to end the search. */
-static bool decide(Search *s, int edge, int triangle) {
+static bool decide(Search *s, int edge, int triangle, const Plane *plane) {
     const int *i = s->edges->index + 2 * (size_t)edge, *j = s->triangles->index + 3 * (size_t)triangle;
     const Vec3 *v = s->edges->position, *w = s->triangles->position;
-    if (!predicate_segment_triangle(v[i[0]], v[i[1]], w[j[0]], w[j[1]], w[j[2]])) return false;
+    Vec3 p = v[i[0]], q = v[i[1]];
+    if (side_of(plane, p) * side_of(plane, q) > 0) return false;
+    if (!predicate_segment_triangle(p, q, w[j[0]], w[j[1]], w[j[2]])) return false;
     s->count->hits++;
     if (s->written < s->capacity) s->out[s->written++] = (Crossing){edge, triangle};
     return s->first_only;
 }
 
-/* The items of edge tile i against some triangles of triangle tile j. */
-static bool search_items(Search *s, int i, int j, unsigned triangles) {
-    const CrossingSet *e = s->edges, *t = s->triangles;
-    for (; triangles; triangles &= triangles - 1) {
-        int k = lowest_lane(triangles);
-        Lanes found = overlapping(&e->level[0][i], &t->level[0][j], k);
-        if (!found) continue;
-        s->count->pairs_tested += lane_count(found);
-        unsigned edges = lane_bits(found & reaching(&e->sieve[i], &t->sieve[j], k, s->slack));
-        for (; edges; edges &= edges - 1)
-            if (decide(s, i * LANES + lowest_lane(edges), j * LANES + k)) return true;
-    }
+/* The lanes `edges` of edge tile i against one triangle: all their boxes overlap. */
+static bool search_triangle(Search *s, int i, unsigned edges, int triangle) {
+    Plane plane = plane_of(s->triangles, triangle);
+    s->count->pairs_tested += __builtin_popcount(edges);
+    for (; edges; edges &= edges - 1)
+        if (decide(s, i * LANES + lowest(edges), triangle, &plane)) return true;
     return false;
 }
 
 /* Tile i of the edges at this level against the lanes `triangles` of tile j of the triangles. */
-static bool search_tiles(Search *s, int level, int i, int j, unsigned triangles) {
-    if (level == 0) return search_items(s, i, j, triangles);
-    const CrossingTile *e = &s->edges->level[level][i], *t = &s->triangles->level[level][j];
-    for (; triangles; triangles &= triangles - 1) {
-        int k = lowest_lane(triangles), below = j * LANES + k;
-        for (unsigned edges = lane_bits(overlapping(e, t, k)); edges; edges &= edges - 1) {
-            int m = lowest_lane(edges);
-            Lanes inner = overlapping(&s->triangles->level[level - 1][below], e, m);
-            if (search_tiles(s, level - 1, i * LANES + m, below, lane_bits(inner))) return true;
+static bool search_tiles(Search *s, int level, int i, int j, TileLanes triangles) {
+    const Tile *e = &s->edges->level[level][i], *t = &s->triangles->level[level][j];
+    TileLanes row[LANES];
+    for (unsigned left = s->machine->meet(e, t, triangles, row); left; left &= left - 1) {
+        int k = lowest(left), below = j * LANES + k;
+        if (level == 0) {
+            if (search_triangle(s, i, row[k], below)) return true;
+            continue;
+        }
+        for (unsigned edges = row[k]; edges; edges &= edges - 1) {
+            int m = lowest(edges);
+            TileLanes inner = s->machine->overlap(&s->triangles->level[level - 1][below], e, m);
+            if (inner && search_tiles(s, level - 1, i * LANES + m, below, inner)) return true;
         }
     }
     return false;
@@ -250,15 +135,7 @@ static int top_tiles(const CrossingSet *set) {
     return n;
 }
 
-/* The slack: with u = 2^-24 and M the reach of both sets, |n|1 <= 1 makes n x of rounded n and
-   rounded x, in three products and two sums, err by at most 6 u M, and w and the difference
-   by 2 u M more; 16 u M is ample. FLT_MIN covers what underflows. */
-static float slack_of(const Search *s) {
-    return 8 * FLT_EPSILON * larger(s->edges->reach, s->triangles->reach) + FLT_MIN;
-}
-
 static int search(Search *s) {
-    s->slack = slack_of(s);
     s->count->pairs_all += (long long)s->edges->count * s->triangles->count;
     for (int i = 0; i < top_tiles(s->edges); i++)
         for (int j = 0; j < top_tiles(s->triangles); j++)
@@ -268,32 +145,110 @@ static int search(Search *s) {
 
 int crossing_find(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
                   CrossingCount *count) {
-    Search s = {edges, triangles, .out = out, .capacity = capacity, .count = count};
+    Search s = {edges, triangles, tile_machine(edges->path), .out = out, .capacity = capacity, .count = count};
     return search(&s);
-}
-
-/* Each triangle's plane against sixteen segments at a time, all of them. The few that reach the plane
-   have their boxes looked at before they are decided, so that a pair costs about the same wherever
-   the triangle stands: time then tells the number of pairs. */
-int crossing_find_plainly(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
-                          CrossingCount *count) {
-    Search s = {edges, triangles, .out = out, .capacity = capacity, .count = count};
-    long long pairs = (long long)edges->count * triangles->count;
-    s.slack = slack_of(&s);
-    count->pairs_all += pairs;
-    count->pairs_tested += pairs;
-    for (int triangle = 0; triangle < triangles->count; triangle++)
-        for (int i = 0; i < tiles(edges->count); i++) {
-            int tile = triangle / LANES, k = triangle % LANES;
-            unsigned found = lane_bits(reaching(&edges->sieve[i], &triangles->sieve[tile], k, s.slack));
-            if (found) found &= lane_bits(overlapping(&edges->level[0][i], &triangles->level[0][tile], k));
-            for (; found; found &= found - 1) decide(&s, i * LANES + lowest_lane(found), triangle);
-        }
-    return s.written;
 }
 
 bool crossing_any(const CrossingSet *edges, const CrossingSet *triangles, CrossingCount *count) {
     Crossing hit;
-    Search s = {edges, triangles, .first_only = true, .out = &hit, .capacity = 1, .count = count};
+    Search s = {edges, triangles, tile_machine(edges->path), .out = &hit, .capacity = 1, .count = count};
+    s.first_only = true;
     return search(&s) > 0;
+}
+
+/* --- without culling --- */
+
+/* Both ends of sixteen segments, and a plane n x = w so long that |nx| + |ny| + |nz| <= 1; n is
+   zero where the triangle has none. */
+typedef struct { _Alignas(64) float p[3][LANES], q[3][LANES]; } Ends;
+typedef struct { float n[3], w; } FloatPlane;
+
+/* Lanes beyond the last item repeat it; their boxes overlap nothing. */
+static void gather_ends(const CrossingSet *edges, int tile, Ends *out) {
+    for (int k = 0; k < LANES; k++) {
+        int item = tile * LANES + k < edges->count ? tile * LANES + k : edges->count - 1;
+        const int *i = edges->index + 2 * (size_t)item;
+        Vec3 p = edges->position[i[0]], q = edges->position[i[1]];
+        out->p[0][k] = (float)p.x, out->p[1][k] = (float)p.y, out->p[2][k] = (float)p.z;
+        out->q[0][k] = (float)q.x, out->q[1][k] = (float)q.y, out->q[2][k] = (float)q.z;
+    }
+}
+
+/* The normal is divided by the sum of the magnitudes of all products in it, of which it is at
+   most the whole: then its error is a few roundings however thin the triangle. */
+static FloatPlane float_plane(const CrossingSet *triangles, int triangle) {
+    const int *i = triangles->index + 3 * (size_t)triangle;
+    Vec3 a = triangles->position[i[0]];
+    Vec3 p = vec_sub(triangles->position[i[1]], a), q = vec_sub(triangles->position[i[2]], a);
+    double yz = p.y * q.z, zy = p.z * q.y, zx = p.z * q.x, xz = p.x * q.z, xy = p.x * q.y, yx = p.y * q.x;
+    double sum = fabs(yz) + fabs(zy) + fabs(zx) + fabs(xz) + fabs(xy) + fabs(yx);
+    Vec3 n = vec_scale(vec(yz - zy, zx - xz, xy - yx), 1 / (sum + 1e-300));
+    return (FloatPlane){{(float)n.x, (float)n.y, (float)n.z}, (float)vec_dot(n, a)};
+}
+
+/* The segments that may reach the plane: not both ends on one side, farther from it than slack. */
+static unsigned reaching(const Ends *ends, const FloatPlane *plane, float slack) {
+    static const int bit[LANES] = {1,   2,   4,    8,    16,   32,   64,    128,
+                                   256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
+    const float(*p)[LANES] = ends->p, (*q)[LANES] = ends->q;
+    float nx = plane->n[0], ny = plane->n[1], nz = plane->n[2], w = plane->w;
+    int found = 0;
+    for (int i = 0; i < LANES; i++) {
+        float a = nx * p[0][i] + ny * p[1][i] + nz * p[2][i] - w;
+        float b = nx * q[0][i] + ny * q[1][i] + nz * q[2][i] - w;
+        bool above = (a < b ? a : b) > slack, below = (a > b ? a : b) < -slack;
+        found += (above | below) ? 0 : bit[i];
+    }
+    return (unsigned)found;
+}
+
+/* The largest magnitude of a coordinate. */
+static float reach_of(const CrossingSet *set) {
+    float reach = 0;
+    for (int t = 0; t < top_tiles(set); t++)
+        for (int x = 0; x < 3; x++)
+            for (int k = 0; k < LANES; k++) {
+                float low = set->level[TOP][t].low[x][k], high = set->level[TOP][t].high[x][k];
+                if (low <= high) reach = fmaxf(reach, fmaxf(-low, high));
+            }
+    return reach;
+}
+
+/* Tiles first..first+n-1 of the edges, in `ends`, against every triangle. */
+static void search_block(Search *s, const Ends *ends, int first, int n, float slack) {
+    for (int triangle = 0; triangle < s->triangles->count; triangle++) {
+        FloatPlane plane = float_plane(s->triangles, triangle);
+        const Tile *box = &s->triangles->level[0][triangle / LANES];
+        for (int i = 0; i < n; i++) {
+            unsigned found = reaching(&ends[i], &plane, slack);
+            if (found) found &= s->machine->overlap(&s->edges->level[0][first + i], box, triangle % LANES);
+            if (!found) continue;
+            Plane exact = plane_of(s->triangles, triangle);
+            for (; found; found &= found - 1) decide(s, (first + i) * LANES + lowest(found), triangle, &exact);
+        }
+    }
+}
+
+/* The slack: with u = 2^-24 and M the reach of both sets, |n|1 <= 1 makes n x of rounded n and
+   rounded x, in three products and two sums, err by at most 6 u M, and w and the difference
+   by 2 u M more; 16 u M is ample. FLT_MIN covers what underflows.
+
+   Each triangle's plane meets sixteen segments at a time, all of them. The few that reach the plane
+   have their boxes looked at before they are decided, so that a pair costs about the same wherever
+   the triangle stands: time then tells the number of pairs. Segments come in blocks that stay in
+   the fastest memory. */
+int crossing_find_plainly(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
+                          CrossingCount *count) {
+    enum { BLOCK = 64 };
+    Ends ends[BLOCK];
+    Search s = {edges, triangles, tile_machine(edges->path), .out = out, .capacity = capacity, .count = count};
+    long long pairs = (long long)edges->count * triangles->count;
+    float slack = 8 * FLT_EPSILON * fmaxf(reach_of(edges), reach_of(triangles)) + FLT_MIN;
+    count->pairs_all += pairs;
+    count->pairs_tested += pairs;
+    for (int first = 0, n = 0; first < tiles(edges->count); first += n) {
+        for (n = 0; n < BLOCK && first + n < tiles(edges->count); n++) gather_ends(edges, first + n, &ends[n]);
+        search_block(&s, ends, first, n, slack);
+    }
+    return s.written;
 }

@@ -1,0 +1,41 @@
+/* Sixteen boxes that stand side by side, with the widest vectors that the machine has. */
+#ifndef GEOMETRY_TILE_H
+#define GEOMETRY_TILE_H
+
+#include "geometry/vec.h"
+
+enum { TILE_LANES = 16 };
+
+/* Box k is low[x][k] .. high[x][k] for the axes x = 0, 1, 2. A lane without a box is empty: low
+   is larger than high, and it overlaps nothing. */
+typedef struct { _Alignas(64) float low[3][TILE_LANES], high[3][TILE_LANES]; } Tile;
+
+/* A bit for each lane. */
+typedef unsigned short TileLanes;
+
+/* The ways to compute the same: plain C, and vectors of 8 and 16 floats on x86-64. */
+typedef enum { TILE_BEST, TILE_PLAIN, TILE_AVX2, TILE_AVX512 } TilePath;
+
+/* Boxes of the n <= 16 items whose corners are position[index[0]], position[index[1]], ... Lanes
+   beyond are empty. The box of them all becomes box `lane` of `above`. */
+typedef void TileBoxes(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane);
+
+typedef struct {
+    const char *name;
+    TileBoxes *segments, *triangles; /* items of two and of three corners */
+    /* The boxes of tile a that overlap box k of tile b; touching is enough. */
+    TileLanes (*overlap)(const Tile *a, const Tile *b, int k);
+    /* The same for each k in `lanes`, to row[k]. Returns the k of those that overlap any. */
+    TileLanes (*meet)(const Tile *a, const Tile *b, TileLanes lanes, TileLanes row[TILE_LANES]);
+} TileMachine;
+
+/* NULL where this machine cannot. TILE_BEST: the fastest that it can. */
+const TileMachine *tile_machine(TilePath path);
+
+/* The box of all boxes of `below` becomes box `lane` of `above`. */
+void tile_sum(const Tile *below, Tile *above, int lane);
+
+/* Empties the lanes from `first` on. */
+void tile_empty(Tile *t, int first);
+
+#endif
