@@ -21,6 +21,18 @@ void bezier_split(const Patch *patch, Patch child[4]);
 /* The part of the patch over [u0, u1] x [w0, w1] as a patch of its own (blossom). */
 Patch bezier_part(const Patch *patch, double u0, double u1, double w0, double w1);
 
+/* Sum of p[k] b[k]: a cubic for the weights of bezier_basis. */
+static inline Vec3 bezier_cubic(const Vec3 p[4], const double b[4]) {
+    return vec_mad(vec_mad(vec_mad(vec_scale(p[0], b[0]), p[1], b[1]), p[2], b[2]), p[3], b[3]);
+}
+
+/* Equation (1) for weights that are at hand: those of u and of w, or of their derivatives. */
+static inline Vec3 bezier_weighted(const Patch *patch, const double bu[4], const double bw[4]) {
+    Vec3 row[4];
+    for (int i = 0; i < 4; i++) row[i] = bezier_cubic(patch->p[i], bw);
+    return bezier_cubic(row, bu);
+}
+
 /* Values b[k] = C(3,k) t^k (1-t)^(3-k) and, if d is not NULL, their derivatives. */
 void bezier_basis(double t, double b[4], double d[4]);
 

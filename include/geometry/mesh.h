@@ -27,6 +27,7 @@ typedef struct {
 /* What the text "%.6f" of x, read back, is worth: the double nearest to round(x * 1e6) / 1e6
    (for |x| < 1e9; never -0). */
 double mesh_snap(double x);
+Vec3 mesh_snap_point(Vec3 p);
 
 /* Fills mesh->edge and nedges from the triangles, each undirected edge once, in order of
    first appearance. */

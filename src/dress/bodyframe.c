@@ -33,7 +33,7 @@ void body_frame_pose(BodyFrame *f, const Pose *pose) {
     body_pose(b, pose, f->position, f->normal);
     for (int v = 0; v < b->skin.nvertices; v++) {
         Vec3 p = vec_scale(f->position[v], f->unit);
-        f->position[v] = vec(mesh_snap(p.x), mesh_snap(p.y), mesh_snap(p.z));
+        f->position[v] = mesh_snap_point(p);
     }
     for (int p = 0; p < b->nparts; p++) {
         const BodyPart *part = &b->part[p];

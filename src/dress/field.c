@@ -54,14 +54,7 @@ void field_owner(const Lattice *l, int place, int *patch, int *i, int *j) {
 Vec3 field_global(const Lattice *l, const Patch *root, int place) {
     int patch, i, j;
     field_owner(l, place, &patch, &i, &j);
-    const double *bu = l->basis[i], *bw = l->basis[j];
-    Vec3 sum = {0, 0, 0};
-    for (int k = 0; k < 4; k++) {
-        const Vec3 *p = root[patch].p[k];
-        Vec3 row = vec_mad(vec_mad(vec_mad(vec_scale(p[0], bw[0]), p[1], bw[1]), p[2], bw[2]), p[3], bw[3]);
-        sum = vec_mad(sum, row, bu[k]);
-    }
-    return sum;
+    return bezier_weighted(&root[patch], l->basis[i], l->basis[j]);
 }
 
 unsigned field_levels(const Field *f) {
@@ -98,12 +91,8 @@ static Vec3 analytic_normal(const Field *f, const Patch *root, unsigned levels, 
     const Lattice *l = f->lattice;
     int patch, i, j, id[4];
     field_owner(l, place, &patch, &i, &j);
-    Vec3 du = {0, 0, 0}, dw = {0, 0, 0};
-    for (int a = 0; a < 4; a++)
-        for (int b = 0; b < 4; b++) {
-            du = vec_mad(du, root[patch].p[a][b], l->basis_slope[i][a] * l->basis[j][b]);
-            dw = vec_mad(dw, root[patch].p[a][b], l->basis[i][a] * l->basis_slope[j][b]);
-        }
+    Vec3 du = bezier_weighted(&root[patch], l->basis_slope[i], l->basis[j]);
+    Vec3 dw = bezier_weighted(&root[patch], l->basis[i], l->basis_slope[j]);
     for (int level = 0; levels >> level; level++) {
         if (!(levels >> level & 1)) continue;
         double weight[4], wu[4], ww[4];

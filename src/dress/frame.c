@@ -95,7 +95,7 @@ static void snap_points(Dresser *d, double unit) {
     for (int v = 0; v < d->sheet.nvertices; v++) {
         Vec3 p = vec_scale(d->push.point[v], unit);
         d->own[v] = d->lattice.collide[d->sheet.place[v]];
-        d->position[v] = vec(mesh_snap(p.x), mesh_snap(p.y), mesh_snap(p.z));
+        d->position[v] = mesh_snap_point(p);
     }
     tester_build(&d->tester, d->position, d->sheet.edge, d->sheet.nedges, d->sheet.triangle, d->sheet.ntriangles,
                  d->own);

@@ -17,7 +17,7 @@ static int *slot(const Lattice *l, int patch, int i, int j) {
     return &l->place[(patch * (l->side + 1) + i) * (l->side + 1) + j];
 }
 
-/* The place of a side's step that an earlier side with the same names has numbered, or -1. */
+/* The first side before this one that has the same names, in the same or in the opposite order. */
 static bool find_twin(const Lattice *l, int patch, Side side, int *twin_patch, Side *twin, bool *reversed) {
     int mine[4], other[4];
     fit_side(&l->fit->patch[patch], side, mine);

@@ -45,11 +45,8 @@ static void leaf_points(const Lattice *l, const Patch *patch, double unit, Vec3 
     int n = l->detail, stride = 1 << l->depth; /* a leaf has the whole range of parameters to itself */
     for (int i = 0; i <= n; i++)
         for (int j = 0; j <= n; j++) {
-            const double *bu = l->basis[i * stride], *bw = l->basis[j * stride];
-            Vec3 p = {0, 0, 0};
-            for (int k = 0; k < 16; k++) p = vec_mad(p, patch->p[k / 4][k % 4], bu[k / 4] * bw[k % 4]);
-            p = vec_scale(p, unit);
-            *out++ = vec(mesh_snap(p.x), mesh_snap(p.y), mesh_snap(p.z));
+            Vec3 p = bezier_weighted(patch, l->basis[i * stride], l->basis[j * stride]);
+            *out++ = mesh_snap_point(vec_scale(p, unit));
         }
 }
 

@@ -65,15 +65,9 @@ static void cell_points(const Lattice *l, const Patch *root, LatticeCell cell, i
     for (int j = 0; j <= n; j++) {
         const double *bw = l->basis[cell.b * n * stride + j * stride];
         Vec3 row[4];
-        for (int i = 0; i < 4; i++) {
-            const Vec3 *p = root->p[i];
-            row[i] = vec_mad(vec_mad(vec_mad(vec_scale(p[0], bw[0]), p[1], bw[1]), p[2], bw[2]), p[3], bw[3]);
-        }
-        for (int i = 0; i <= n; i++) {
-            const double *bu = l->basis[cell.a * n * stride + i * stride];
-            out[i * (n + 1) + j] =
-                vec_mad(vec_mad(vec_mad(vec_scale(row[0], bu[0]), row[1], bu[1]), row[2], bu[2]), row[3], bu[3]);
-        }
+        for (int i = 0; i < 4; i++) row[i] = bezier_cubic(root->p[i], bw);
+        for (int i = 0; i <= n; i++)
+            out[i * (n + 1) + j] = bezier_cubic(row, l->basis[cell.a * n * stride + i * stride]);
     }
 }
 

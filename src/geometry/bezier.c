@@ -15,25 +15,18 @@ void bezier_basis(double t, double b[4], double d[4]) {
     d[3] = 3 * t * t;
 }
 
-/* Sum of row[j] * weight[j]. */
-static Vec3 combine(const Vec3 row[4], const double weight[4]) {
-    Vec3 p = vec_scale(row[0], weight[0]);
-    for (int j = 1; j < 4; j++) p = vec_mad(p, row[j], weight[j]);
-    return p;
-}
-
 Vec3 bezier_point(const Patch *patch, double u, double w, Vec3 *du, Vec3 *dw) {
     double bu[4], bw[4], cu[4], cw[4];
     bezier_basis(u, bu, cu);
     bezier_basis(w, bw, cw);
     Vec3 row[4], slope[4];
     for (int i = 0; i < 4; i++) {
-        row[i] = combine(patch->p[i], bw);
-        slope[i] = combine(patch->p[i], cw);
+        row[i] = bezier_cubic(patch->p[i], bw);
+        slope[i] = bezier_cubic(patch->p[i], cw);
     }
-    if (du) *du = combine(row, cu);
-    if (dw) *dw = combine(slope, bu);
-    return combine(row, bu);
+    if (du) *du = bezier_cubic(row, cu);
+    if (dw) *dw = bezier_cubic(slope, bu);
+    return bezier_cubic(row, bu);
 }
 
 Vec3 bezier_normal(const Patch *patch, double u, double w) {

@@ -18,6 +18,10 @@ double mesh_snap(double x) {
     return n / 1e6;
 }
 
+Vec3 mesh_snap_point(Vec3 p) {
+    return vec(mesh_snap(p.x), mesh_snap(p.y), mesh_snap(p.z));
+}
+
 /* The edges at a vertex that have it as their lower end form a list; few enough to search. */
 bool mesh_find_edges(Mesh *mesh, Arena *arena, Error *e) {
     size_t sides = 3 * (size_t)mesh->ntriangles;
