@@ -12,7 +12,8 @@ static const char frame_head[] = "frame,time,garment,split,nodes,leaves,depth,ce
                                  "tested,hits_before,sweeps,active,"
                                  "displacement,residual_edges,residual_cloth,inside,deepest,limb_edges,limb_cloth,limb_"
                                  "inside,pinched,capped,restarted,method,tests,tests_culled";
-static const char frame_times[] = ",pose_s,global_s,test_s,push_s,mesh_s,write_s";
+static const char no_times[] = ",arm_turn";
+static const char frame_times[] = ",pose_s,global_s,test_s,push_s,mesh_s,write_s,arm_turn";
 
 static StatsRow sample_row(void) {
     return (StatsRow){.frame = 12,
@@ -48,7 +49,8 @@ static StatsRow sample_row(void) {
                                 .push_s = 1e-6,
                                 .mesh_s = 2},
                       .pose_s = 0.125,
-                      .write_s = 0.0625};
+                      .write_s = 0.0625,
+                      .arm_turn = 12.5};
 }
 
 /* The lines of the file that are no comment, in one static text. */
@@ -82,19 +84,19 @@ static void test_frames(void) {
     OK(stats_close(&f, &e) && is_table(path, frame_head, frame_times,
                                        "12,0.091667,skirt,uniform,42,32,2,50,1300,2500,60000000000,12345,7,3,9,0."
                                        "012346,1,2,3,0.000000,4,5,6,8,1,0,paper,70000000000,0,"
-                                       "0.125000,0.500000,0.250000,0.000001,2.000000,0.062500"),
+                                       "0.125000,0.500000,0.250000,0.000001,2.000000,0.062500,12.500000"),
        "a row of stats.csv");
     bool written = stats_open(&f, path, TABLE_STATS, false, &e) && stats_add(&f, &row, &e) && stats_close(&f, &e);
-    OK(written && is_table(path, frame_head, "",
+    OK(written && is_table(path, frame_head, no_times,
                            "12,0.091667,skirt,uniform,42,32,2,50,1300,2500,60000000000,12345,7,3,9,0.012346,1,2,3,0."
-                           "000000,4,5,6,8,1,0,paper,70000000000,0"),
+                           "000000,4,5,6,8,1,0,paper,70000000000,0,12.500000"),
        "and without times");
     row.stats.displacement = -NAN;
     row.garment = "a,\"b\"\nc";
     written = stats_open(&f, path, TABLE_STATS, false, &e) && stats_add(&f, &row, &e) && stats_close(&f, &e);
-    OK(written && is_table(path, frame_head, "",
+    OK(written && is_table(path, frame_head, no_times,
                            "12,0.091667,\"a,\"\"b\"\"?c\",uniform,42,32,2,50,1300,2500,60000000000,12345,7,3,9,nan,1,2,"
-                           "3,0.000000,4,5,6,8,1,0,paper,70000000000,0"),
+                           "3,0.000000,4,5,6,8,1,0,paper,70000000000,0,12.500000"),
        "names are quoted, no number is nan");
 }
 
@@ -118,12 +120,13 @@ static void test_summary(void) {
                path,
                "motion,garment,status,frames,residual_frames,residual_edges,residual_cloth,inside,deepest,limb_frames,"
                "pinched_frames,capped_frames,max_displacement,mean_nodes,max_nodes,pairs_all,pairs_tested,bytes,"
-               "seconds,reason",
+               "seconds,reason,max_arm_turn",
                "",
                "walks/"
-               "fast,skirt,ok,3,2,1,2,4,0.001000,2,2,1,0.200000,14.333333,42,60000000001,12345,5000000000,1.500000,\n"
+               "fast,skirt,ok,3,2,1,2,4,0.001000,2,2,1,0.200000,14.333333,42,60000000001,12345,5000000000,1.500000,,"
+               "12.500000\n"
                "chain,,refused,0,0,0,0,0,0.000000,0,0,0,0.000000,0.000000,0,0,0,0,0.000000,\"no human: 'left_thigh', "
-               "'right_thigh' missing\""),
+               "'right_thigh' missing\",0.000000"),
        "rows of summary.csv");
 }
 
@@ -138,7 +141,8 @@ static void test_units(void) {
         fclose(in);
     }
     OK(line[0][0] == '#' &&
-           strcmp(line[1], "# units: time s; displacement m; deepest m; all other numbers are counts or flags\n") == 0,
+           strcmp(line[1], "# units: time s; displacement m; deepest m; arm_turn deg; "
+                           "all other numbers are counts or flags\n") == 0,
        "comment lines tell the units: %.*s", (int)strcspn(line[1], "\n"), line[1]);
 }
 

@@ -2,10 +2,20 @@
 #ifndef APP_JUMPS_H
 #define APP_JUMPS_H
 
-#include "base/error.h"
+#include "figure/figure.h"
 
 /* What lies between two neighbouring frames. */
 typedef enum { STEP_PLAIN, STEP_FLIP, STEP_JUMP } Step;
+
+/* What the steps of a motion are judged by. */
+typedef struct {
+    const Figure *figure;
+    double frame_time; /* seconds */
+    bool lone_first;   /* the first frame does not belong to the others */
+} JumpRule;
+
+/* The step onto `frame`, from 0, of the source. *width gets the widest step of a bone, in heights. */
+Step jumps_judge(const JumpRule *rule, int frame, const Pose *behind, const Pose *ahead, double *width);
 
 /* Neighbouring frames first..last, from 1, each that far (in heights) from the one before. */
 typedef struct { int first, last; double width; Step kind; } Jump;

@@ -4,6 +4,7 @@
 
 #include "app/chunks.h"
 #include "app/wearer.h"
+#include "dress/room.h"
 #include "files/obj.h"
 #include "files/stats.h"
 
@@ -13,6 +14,7 @@ typedef struct {
     ObjWriter obj;
     Wearer wearer;       /* motion, figure and body are the job's, the pose is its own */
     Dresser **dresser;   /* one for each garment */
+    Cloth cloth;         /* the room that these need */
 } Lane;
 
 /* What a chunk gives, in the order of its frames. Arrays by the job. */

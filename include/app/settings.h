@@ -55,6 +55,7 @@ typedef struct {
     int up;                     /* as in FigureOptions */
     FrameSpan frames;
     double rate;                /* resample to so many frames per second */
+    bool relax_arms;            /* turn arms outwards where they leave no room for cloth */
 
     int method;                 /* Method */
     int split;                  /* SplitRule */

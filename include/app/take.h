@@ -5,7 +5,7 @@
 
 #include "app/jumps.h"
 #include "app/settings.h"
-#include "figure/figure.h"
+#include "figure/relax.h"
 
 typedef struct {
     int number;   /* from 1, of the source or, resampled, of the resampled frames */
@@ -13,6 +13,7 @@ typedef struct {
     double dt;    /* seconds since the last frame of the take; 0 for its first */
     bool restart; /* the first one, or the figure has jumped since the last one */
     Pose pose;
+    double arm_turn; /* degrees: the most by which a joint of an arm was turned outwards; see take_relax */
 } TakeFrame;
 
 typedef struct Take Take;
@@ -29,6 +30,10 @@ MUST_CHECK bool take_span(const Motion *m, const FrameSpan *span, double rate, F
 MUST_CHECK bool take_open(const Motion *m, const Figure *figure, const FrameSpan *span, double rate, Arena *arena,
                           Take **out, Error *e);
 void take_close(Take *t);
+
+/* From now on arms are turned outwards where they leave no room for the cloth. `body` must be that of
+   the figure. Before the first frame. */
+MUST_CHECK bool take_relax(Take *t, const Body *body, const Cloth *cloth, Arena *arena, Error *e);
 
 /* How many frames there will be. */
 int take_count(const Take *t);

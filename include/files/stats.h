@@ -16,6 +16,7 @@ typedef struct {
     Method method;
     FrameStats stats;
     double pose_s, write_s;
+    double arm_turn;     /* degrees; see TakeFrame */
 } StatsRow;
 
 /* A row of summary.csv; clear with {0}, name it, and summary_add each frame. */
@@ -31,6 +32,7 @@ typedef struct {
     long long bytes;     /* written for this garment */
     double seconds;
     const char *reason;  /* why not ok; NULL = nothing to say */
+    double arm_turn;     /* the largest of all frames */
 } SummaryRow;
 
 /* Does anything of the garment still go through what it may not? Limbs count apart. */

@@ -41,6 +41,14 @@ bool lane_open(Lane *lane, const LaneWork *work, Error *e) {
            wearer_put_on(&lane->wearer, work->wardrobe, &options, &lane->arena, &lane->dresser, e);
 }
 
+static bool relax_arms(Lane *lane, const Wardrobe *wardrobe, Take *take, Error *e) {
+    const Wearer *w = &lane->wearer;
+    lane->cloth = (Cloth){0};
+    for (int g = 0; g < wardrobe->ngarments; g++)
+        if (!room_add(wardrobe->garment[g], &w->figure, &w->body, &lane->arena, &lane->cloth, e)) return false;
+    return take_relax(take, &w->body, &lane->cloth, &lane->arena, e);
+}
+
 /* The mesh is in output units already: what was tested is what is written. */
 static bool write_mesh(Run *r, const char *name, int frame, const Mesh *mesh, long long *bytes, Error *e) {
     char path[OUTPUT_PATH_MAX + 128];
@@ -89,7 +97,7 @@ static bool dress_frame(Run *r, const TakeFrame *frame, double since, Error *e) 
     for (int g = 0; g < n; g++) {
         StatsRow *row = &r->result->row[r->result->nrows];
         *row = (StatsRow){.frame = frame->number, .time = frame->time, .split = (SplitRule)r->settings->split,
-                          .pose_s = pose_s, .write_s = body_s};
+                          .pose_s = pose_s, .write_s = body_s, .arm_turn = frame->arm_turn};
         row->method = (Method)r->settings->method;
         if (!dress_garment(r, g, frame, row, e)) return false;
         r->result->nrows++;
@@ -132,7 +140,8 @@ void lane_run(Lane *lane, const LaneWork *work, const Chunk *chunk, const LaneWa
     Run r = {.lane = lane, .work = work, .settings = s, .chunk = chunk, .result = out};
     Error *e = &out->error;
     Take *take = NULL;
-    if (take_open(&w->motion, &w->figure, &chunk->span, s->rate, &lane->arena, &take, e)) {
+    if (take_open(&w->motion, &w->figure, &chunk->span, s->rate, &lane->arena, &take, e) &&
+        (!s->relax_arms || relax_arms(lane, work->wardrobe, take, e))) {
         dress_frames(&r, take, watch, e);
         out->jumps = take_jumps(take);
     }

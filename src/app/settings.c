@@ -65,6 +65,8 @@ const Option settings_table[] = {
      "axis that points up in the motion", .fallback = "found from the poses", .choices = axes},
     {"position", 0, KIND_CHOICE, FIELD(position), "RULE", "Motion", MOVES,
      "what position channels do to a joint's OFFSET", .fallback = "guess", .choices = positions},
+    {"relax-arms", 0, KIND_FLAG, FIELD(relax_arms), NULL, "Motion", COMMAND_DRESS,
+     "turn arms outwards, just enough to leave room for the cloth between them and the body"},
 
     {"garment", 'g', KIND_LIST, FIELD(garments), "FILE", "Garments and body", BODIES,
      "garment to put on; repeat it for several"},

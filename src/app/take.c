@@ -13,18 +13,12 @@
 
 #include <math.h>
 
-/* Heights a second. Kicks and dances that were looked at reach 9 at a hand or foot and 4 at the
-   pelvis, a pitcher's hand about 14; a rest pose that a converter has blended into a take moves at
-   15 to 60, a knee that it flips at up to 50, a teleport at 200. Only what concerns the whole body
-   makes cloth start afresh; a limb that flips is reported. */
-static const double FAST_LIMB = 15, FAST_PELVIS = 8, TELEPORT = 80;
-
-/* A step also has to be so wide, in heights: noise at a high frame rate is no jump. */
-static const double WIDE_LIMB = 0.1, WIDE_PELVIS = 0.05;
+#include "app/relief.h"
 
 /* The first frame stands alone if the step to the second is so many times wider than any of the
    next steps, and wider than this part of the height. */
 static const double LONE_FACTOR = 4, LONE_STEP = 0.05;
+
 /* Frame times are rounded in files ("0.0083333"): what lies nearer than this to a frame of the
    source, as a part of its time, is that frame and no mixture. */
 static const double ROUNDING = 1e-5;
@@ -48,6 +42,7 @@ struct Take {
     Rigid *between;            /* joints of a resampled frame */
     bool lone_first;
     double last_time;
+    Relief *relief;            /* NULL: arms stay as they are */
     Jumps jumps;
 };
 
@@ -67,9 +62,6 @@ static bool shift(Take *t, Error *e) {
     return load(t, &t->ahead, t->behind.frame + 1, e);
 }
 
-/* The widest step of a bone from one side of the window to the other, in heights. */
-static double step_width(const Take *t) { return figure_speed(t->figure, &t->behind.pose, &t->ahead.pose, 1); }
-
 /* Does the first frame not belong to the rest? */
 static bool look_at_first(Take *t, Error *e) {
     int look = t->motion->nframes - 1 < LONE_LOOK ? t->motion->nframes - 1 : LONE_LOOK;
@@ -78,7 +70,7 @@ static bool look_at_first(Take *t, Error *e) {
     if (!load(t, &t->ahead, 0, e)) return false;
     for (int i = 1; i <= look; i++) {
         if (!shift(t, e)) return false;
-        double width = step_width(t);
+        double width = figure_speed(t->figure, &t->behind.pose, &t->ahead.pose, 1); /* in heights */
         if (i == 1) first = width;
         else if (width > widest) widest = width;
     }
@@ -86,27 +78,12 @@ static bool look_at_first(Take *t, Error *e) {
     return true;
 }
 
-static double pelvis_width(const Take *t) {
-    Vec3 start = t->figure->start[ROLE_PELVIS];
-    Vec3 behind = rigid_apply(t->behind.pose.bone[ROLE_PELVIS], start);
-    Vec3 ahead = rigid_apply(t->ahead.pose.bone[ROLE_PELVIS], start);
-    return vec_dist(behind, ahead) / t->figure->height;
-}
-
-static Step judge(const Take *t, double width) {
-    double dt = t->motion->frame_time, pelvis = pelvis_width(t);
-    bool is_fast = width > WIDE_LIMB && width > FAST_LIMB * dt;
-    if (t->ahead.frame == 1 && t->lone_first) return STEP_JUMP;
-    if (pelvis > WIDE_PELVIS && pelvis > FAST_PELVIS * dt) return STEP_JUMP;
-    if (is_fast && (t->ahead.frame < LONE_LOOK || width > TELEPORT * dt)) return STEP_JUMP;
-    return is_fast ? STEP_FLIP : STEP_PLAIN;
-}
-
 /* Moves on and looks at the step inside the window. */
 static bool advance(Take *t, Error *e) {
     if (!shift(t, e)) return false;
-    double width = step_width(t);
-    Step kind = judge(t, width);
+    double width;
+    JumpRule rule = {t->figure, t->motion->frame_time, t->lone_first};
+    Step kind = jumps_judge(&rule, t->ahead.frame, &t->behind.pose, &t->ahead.pose, &width);
     t->passed = t->passed || t->within;
     t->within = kind == STEP_JUMP;
     if (kind != STEP_PLAIN) jumps_add(&t->jumps, t->ahead.frame + 1, width, kind);
@@ -148,6 +125,11 @@ bool take_open(const Motion *m, const Figure *figure, const FrameSpan *span, dou
 
 void take_close(Take *t) {
     if (t && t->reader) motion_reader_close(t->reader);
+    if (t) relief_close(t->relief);
+}
+
+bool take_relax(Take *t, const Body *body, const Cloth *cloth, Arena *arena, Error *e) {
+    return relief_open(t->motion, t->figure, body, cloth, t->lone_first, arena, &t->relief, e);
 }
 
 int take_count(const Take *t) { return t->number > t->last ? 0 : (t->last - t->number) / t->step + 1; }
@@ -180,6 +162,21 @@ static void interpolate(Take *t, double part, Pose *out) {
     figure_pose(t->figure, t->between, out);
 }
 
+/* Turns the arms as between two source frames, neighbours or the same. */
+static bool relax(Take *t, int frame, int next, double part, TakeFrame *out, Error *e) {
+    ArmTurn here[ARMS], there[ARMS];
+    out->arm_turn = 0;
+    if (!t->relief) return true;
+    if (!relief_at(t->relief, frame, here, e) || !relief_at(t->relief, next, there, e)) return false;
+    for (int arm = 0; arm < ARMS; arm++) {
+        here[arm].shoulder += part * (there[arm].shoulder - here[arm].shoulder);
+        here[arm].elbow += part * (there[arm].elbow - here[arm].elbow);
+        out->arm_turn = fmax(out->arm_turn, fmax(here[arm].shoulder, here[arm].elbow));
+    }
+    relax_apply(t->figure, here, &out->pose);
+    return true;
+}
+
 /* A frame of the source as it stands. */
 static bool give_source(Take *t, int frame, TakeFrame *out, Error *e) {
     if (!reach(t, frame, frame, e)) return false;
@@ -188,7 +185,7 @@ static bool give_source(Take *t, int frame, TakeFrame *out, Error *e) {
     out->restart = t->passed || (is_ahead && t->within);
     t->passed = false;
     if (is_ahead) t->within = false;
-    return true;
+    return relax(t, frame, frame, 0, out, e);
 }
 
 /* A frame between two of the source; at a jump there is nothing between, and the earlier stays. */
@@ -198,7 +195,7 @@ static bool give_between(Take *t, int frame, double part, TakeFrame *out, Error 
     else interpolate(t, part, &out->pose);
     out->restart = t->passed;
     t->passed = false;
-    return true;
+    return relax(t, frame, t->within ? frame : frame + 1, part, out, e);
 }
 
 bool take_next(Take *t, TakeFrame *out, Error *e) {

@@ -56,6 +56,7 @@ static const Column frame_columns[] = {
     {"push_s", "s", KIND_SECONDS, AT(stats.push_s), "local deformation"},
     {"mesh_s", "s", KIND_SECONDS, AT(stats.mesh_s), "making the mesh"},
     {"write_s", "s", KIND_SECONDS, AT(write_s), "writing it"},
+    {"arm_turn", "deg", KIND_REAL, AT(arm_turn), "how far `--relax-arms` turned an arm outwards, at most 40"},
 };
 #undef AT
 
@@ -82,6 +83,7 @@ static const Column summary_columns[] = {
     {"bytes", "", KIND_LONG, AT(bytes), "written for this garment"},
     {"seconds", "s", KIND_SECONDS, AT(seconds), "time that this motion and garment took"},
     {"reason", "", KIND_TEXT, AT(reason), "why it failed or was refused"},
+    {"max_arm_turn", "deg", KIND_REAL, AT(arm_turn), "of all frames"},
 };
 #undef AT
 
@@ -110,6 +112,7 @@ void summary_add(SummaryRow *sum, const StatsRow *row) {
     sum->residual_cloth += s->residual_cloth;
     sum->inside += s->inside;
     sum->deepest = larger(sum->deepest, s->deepest);
+    sum->arm_turn = larger(sum->arm_turn, row->arm_turn);
     sum->max_displacement = larger(sum->max_displacement, s->displacement);
     sum->nodes += s->nodes;
     sum->mean_nodes = (double)sum->nodes / sum->frames;

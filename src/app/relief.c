@@ -1,0 +1,149 @@
+/* What a frame needs is known from its pose alone (figure/relax); to turn an arm only then would
+   jerk it. The one idea: each frame takes the largest need of all frames within a quarter of a second, and of
+   these maxima the weighted mean over another quarter of a second. Every maximum in that mean covers the
+   frame itself, so the mean is never less than what the frame needs; and it is as smooth as
+   the weights.
+
+   All of it happens on the frames of the source and never across a jump, so the same frame gets the same turn
+   whatever else is dressed: other frames, another rate, another chunk. */
+#include "app/relief.h"
+
+/* Seconds to either side over which the largest is taken, and again over which it is smoothed. */
+static const double REACH = 0.25;
+
+/* Frames in that time; ten thousand frames a second are no reason for a large table. */
+static const double REACH_MOST = 2048;
+
+/* A source frame, in a ring of them. */
+typedef struct {
+    ArmTurn need[ARMS], most[ARMS];
+    int stretch; /* the same number: no jump in between */
+} Moment;
+
+struct Relief {
+    const Motion *motion;
+    const Figure *figure;
+    const Body *body;
+    const Cloth *cloth;
+    bool lone_first;
+    MotionReader *reader;
+    double *row;
+    Rigid *world;
+    Pose pose;           /* of the last frame that was read */
+    double span;         /* REACH in frames */
+    int reach, size;     /* in whole frames, rounded up: of the window, of the ring */
+    int begin, read, known; /* frames begin .. read - 1 have a need, those before `known` a maximum */
+    Moment *ring;
+    double *weight;      /* reach + 1 of them, from the middle outwards */
+};
+
+bool relief_open(const Motion *m, const Figure *figure, const Body *body, const Cloth *cloth, bool lone_first,
+                 Arena *arena, Relief **out, Error *e) {
+    Relief *r = *out = ARENA_NEW(arena, Relief, 1, e);
+    if (!r) return false;
+    *r = (Relief){.motion = m, .figure = figure, .body = body, .cloth = cloth, .lone_first = lone_first};
+    r->span = fmin(REACH / m->frame_time, REACH_MOST);
+    r->reach = (int)ceil(r->span);
+    r->size = 4 * r->reach + 2; /* two windows to either side, and one frame that may be asked for again */
+    r->row = ARENA_NEW(arena, double, m->skeleton.nchannels, e);
+    r->world = ARENA_NEW(arena, Rigid, m->skeleton.njoints, e);
+    r->ring = ARENA_NEW(arena, Moment, r->size, e);
+    r->weight = ARENA_NEW(arena, double, r->reach + 1, e);
+    if (!r->row || !r->world || !r->ring || !r->weight) return false;
+    for (int k = 0; k <= r->reach; k++) r->weight[k] = 1 + cos(PI * fmin(k / r->span, 1));
+    return motion_reader_open(m, arena, &r->reader, e);
+}
+
+void relief_close(Relief *r) {
+    if (r && r->reader) motion_reader_close(r->reader);
+}
+
+static Moment *moment_of(const Relief *r, int frame) { return &r->ring[frame % r->size]; }
+
+static bool read_frame(Relief *r, Error *e) {
+    int frame = r->read;
+    Pose before = r->pose;
+    double width;
+    if (!motion_row(r->reader, frame, r->row, e)) return false;
+    skeleton_pose(&r->motion->skeleton, r->row, r->world);
+    figure_pose(r->figure, r->world, &r->pose);
+    Moment *now = moment_of(r, frame);
+    now->stretch = 0;
+    if (frame > r->begin) {
+        JumpRule rule = {r->figure, r->motion->frame_time, r->lone_first};
+        bool jump = jumps_judge(&rule, frame, &before, &r->pose, &width) == STEP_JUMP;
+        now->stretch = moment_of(r, frame - 1)->stretch + jump;
+    }
+    relax_find(r->figure, r->body, r->cloth, &r->pose, now->need);
+    r->read++;
+    return true;
+}
+
+static void widen(ArmTurn *most, ArmTurn need) {
+    most->shoulder = fmax(most->shoulder, need.shoulder);
+    most->elbow = fmax(most->elbow, need.elbow);
+}
+
+static ArmTurn between(ArmTurn a, ArmTurn b, double part) {
+    return (ArmTurn){a.shoulder + part * (b.shoulder - a.shoulder), a.elbow + part * (b.elbow - a.elbow)};
+}
+
+/* The frames within the window of `frame` that no jump parts from it, and that have been read. */
+static void window_of(const Relief *r, int frame, int *first, int *last) {
+    int stretch = moment_of(r, frame)->stretch;
+    *first = frame - r->reach > r->begin ? frame - r->reach : r->begin;
+    *last = frame + r->reach < r->motion->nframes ? frame + r->reach : r->motion->nframes - 1;
+    while (moment_of(r, *first)->stretch != stretch) ++*first;
+    while (moment_of(r, *last)->stretch != stretch) --*last;
+}
+
+/* The largest need in the window. Its ends lie between frames: what is needed there is between what
+   these need, so that the maximum does not depend on where the source has its frames. */
+static void find_most(Relief *r, int frame) {
+    int first, last;
+    double part = r->span - (r->reach - 1);
+    window_of(r, frame, &first, &last);
+    for (int arm = 0; arm < ARMS; arm++) {
+        ArmTurn *most = &moment_of(r, frame)->most[arm];
+        *most = moment_of(r, frame)->need[arm];
+        for (int k = first; k <= last; k++) {
+            ArmTurn need = moment_of(r, k)->need[arm];
+            if (k == frame - r->reach) need = between(moment_of(r, k + 1)->need[arm], need, part);
+            if (k == frame + r->reach) need = between(moment_of(r, k - 1)->need[arm], need, part);
+            widen(most, need);
+        }
+    }
+}
+
+/* Fills the ring as far as a frame needs it. */
+static bool fill(Relief *r, int frame, Error *e) {
+    int reach = r->reach, end = r->motion->nframes;
+    if (r->read == 0 || frame - 2 * reach > r->read) { /* nothing of the ring is wanted */
+        r->begin = r->read = frame > 2 * reach ? frame - 2 * reach : 0;
+        r->known = r->begin;
+    }
+    while (r->read < end && r->read <= frame + 2 * reach) {
+        if (!read_frame(r, e)) return false;
+        if (r->known + reach < r->read) find_most(r, r->known++);
+    }
+    while (r->known < end && r->known <= frame + reach) find_most(r, r->known++); /* at the end of the motion */
+    return true;
+}
+
+bool relief_at(Relief *r, int frame, ArmTurn out[ARMS], Error *e) {
+    int first, last;
+    if (!fill(r, frame, e)) return false;
+    window_of(r, frame, &first, &last);
+    for (int arm = 0; arm < ARMS; arm++) {
+        double sum = 0, shoulder = 0, elbow = 0;
+        for (int k = first; k <= last; k++) {
+            double w = r->weight[k < frame ? frame - k : k - frame];
+            const ArmTurn *most = &moment_of(r, k)->most[arm];
+            sum += w;
+            shoulder += w * most->shoulder;
+            elbow += w * most->elbow;
+        }
+        out[arm] = (ArmTurn){shoulder / sum, elbow / sum};
+    }
+    return true;
+}

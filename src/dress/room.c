@@ -1,0 +1,71 @@
+/* Samples the garment in the canonical stance. Each sample belongs to the part that is nearest of those
+   that its patch keeps out of, and counts where arm and trunk would touch: on the outer side of
+   trunk and legs, on the inner side of the arms. */
+#include "dress/room.h"
+
+#include "dress/follow.h"
+
+enum { SAMPLES = 12 }; /* along each side of a patch */
+
+/* Cosine to the side: what stands off to the front or the back does not count. */
+static const double SIDEWAYS = 0.6;
+
+/* No tight garment stands off by more (metres, for a figure of 1.70 m): its cloth under the armpit
+   belongs to the sleeve and to the trunk, and lies on neither. */
+static const double TIGHT_MOST = 0.03;
+
+static bool is_arm(Role role) {
+    return (role >= ROLE_LEFT_UPPER_ARM && role <= ROLE_LEFT_HAND) ||
+           (role >= ROLE_RIGHT_UPPER_ARM && role <= ROLE_RIGHT_HAND);
+}
+
+static bool is_left(const BodyPart *part, Vec3 p) {
+    bool limb = part->role > ROLE_HEAD;
+    return limb ? is_arm(part->role) ? part->role <= ROLE_LEFT_HAND : part->role <= ROLE_LEFT_TOE : p.x > 0;
+}
+
+/* The way from a part of the trunk to the arm beside it, or from an arm to the trunk. */
+static Vec3 side_of(const BodyPart *part, Vec3 p) {
+    Vec3 along = mat_column(part->frame.r, 1);
+    Vec3 out = vec(is_left(part, p) != is_arm(part->role) ? 1 : -1, 0, 0);
+    return vec_unit_or(vec_mad(out, along, -vec_dot(out, along)), out);
+}
+
+static void add_sample(const Body *body, unsigned collide, Vec3 p, double most, Cloth *cloth) {
+    const BodyPart *near = NULL;
+    Vec3 normal = {0, 0, 0};
+    double least = 1;
+    for (int i = 0; i < body->nparts; i++) {
+        const BodyPart *part = &body->part[i];
+        Vec3 n;
+        if (!(collide >> part->role & 1)) continue;
+        double d = body_distance(part, rigid_unapply(part->frame, p), least, &n);
+        if (d >= least) continue;
+        least = d;
+        near = part;
+        normal = mat_apply(part->frame.r, n);
+    }
+    if (!near || vec_dot(normal, side_of(near, p)) < SIDEWAYS) return;
+    double y = rigid_unapply(near->frame, p).y, place = (y - near->low) / (near->high - near->low);
+    double *off = cloth->off[near->role] + (int)(clamp(place, 0, 1) * (CLOTH_PLACES - 1) + 0.5);
+    *off = fmax(*off, fmin(least, most));
+}
+
+bool room_add(const Garment *garment, const Figure *figure, const Body *body, Arena *arena, Cloth *cloth, Error *e) {
+    Fit *fit = ARENA_NEW(arena, Fit, 1, e);
+    Follower follower;
+    Pose stance = figure_rest_pose();
+    if (!fit || !fit_garment(garment, figure, body, arena, fit, e) ||
+        !follow_reserve(&follower, fit, figure, body, arena, e))
+        return false;
+    Patch *patch = ARENA_NEW(arena, Patch, fit->npatches, e);
+    if (!patch) return false;
+    follow_pose(&follower, &stance, patch);
+    double most = garment->loose ? INFINITY : TIGHT_MOST * figure->height / 1.7;
+    for (int p = 0; p < fit->npatches; p++)
+        for (int k = 0; k <= SAMPLES * (SAMPLES + 2); k++) {
+            double u = k % (SAMPLES + 1) / (double)SAMPLES, w = k / (SAMPLES + 1) / (double)SAMPLES;
+            add_sample(body, fit->patch[p].collide, bezier_point(&patch[p], u, w, NULL, NULL), most, cloth);
+        }
+    return true;
+}
