@@ -89,6 +89,8 @@ static bool same_garment(const Garment *a, const Garment *b) {
 #define COLUMN(x, part) #x " 1 0 " part " 1\n" #x " .9 0 " part " 1\n" #x " .8 0 " part " 1\n" #x " .7 0 " part " 1\n"
 #define FLAT COLUMN(0, "pelvis") COLUMN(.1, "pelvis") COLUMN(.2, "pelvis") COLUMN(.3, "pelvis")
 #define NEXT COLUMN(.3, "pelvis") COLUMN(.4, "pelvis") COLUMN(.5, "pelvis") COLUMN(.6, "pelvis")
+/* Back over the first, as the outside of a hem. */
+#define BACK COLUMN(.3, "pelvis") COLUMN(.2, "pelvis") COLUMN(.1, "pelvis") COLUMN(0, "pelvis")
 #define POINT ".1 .2 .3 pelvis 1\n"
 #define POINTS16 POINT POINT POINT POINT POINT POINT POINT POINT POINT POINT POINT POINT POINT POINT POINT POINT
 
@@ -230,6 +232,8 @@ static void round_trips(void) {
         {"thirds",
          "garment g\nring a pelvis 1\nbind a pelvis 1 chest 1 spine 1\nbind a.back head .1 neck .2 chest .3 spine .1\n"
          "ring b pelvis 0\npanel p\nrow a left front\nrow b left front\n"},
+        {"a fold that is meant",
+         "garment g\npatch s\n" FLAT "patch t\n" BACK "seam s.end t.start crease\n"},
         {"every statement",
          "garment g.v2\nfollow bones\nfit loose\ndetail 5\nring left_a left_thigh .1 size 1 2 3\nmove left_a.front 0 "
          ".1 0\n"
@@ -396,6 +400,8 @@ static const Mistake mistakes[] = {
     {"garment g\npatch s\n" FLAT "patch t\n" COLUMN(.3, "chest") COLUMN(.4, "pelvis") COLUMN(.5, "pelvis")
          COLUMN(.6, "pelvis") "seam s.end t.start\n",
      36, 6, "follow different bones"},
+    {"garment g\npatch s\n" FLAT "patch t\n" BACK "seam s.end t.start\n", 36, 6, "folded by up to 180 degrees"},
+    {"garment g\npatch s\n" FLAT "patch t\n" BACK "seam t.start s.end\n", 36, 6, "folded by up to 180 degrees"},
     /* pins, colliders */
     {RINGS "pin a\n", 5, 5, "no panel above uses the ring 'a'"},
     {PANEL "pin d\n", 9, 5, "unknown ring 'd'"},

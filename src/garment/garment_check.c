@@ -11,6 +11,7 @@
 
 static const double MEET = 1e-6;        /* metres: what "%.6f" can tell apart */
 static const double SAME_WEIGHT = 1e-9; /* weights are normalised after reading */
+static const double FOLD = 5;           /* degrees across a seam that is no crease */
 static const double NO_AREA = 1e-8;     /* square metres: a hundredth of a square millimetre */
 
 static bool no(Why *why, const char *fmt, ...) PRINTF_LIKE(2, 3);
@@ -141,6 +142,35 @@ static bool same_binding(const Binding *a, const Binding *b) {
     return true;
 }
 
+/* Where the surface goes from a side of a patch, at s along it in the direction of growing u or w. */
+static Vec3 inwards(const RawPatch *patch, Side side, double s, Vec3 *along) {
+    Patch surface;
+    Vec3 du, dw;
+    for (int k = 0; k < 16; k++) surface.p[k / 4][k % 4] = patch->point[k];
+    bool upright = side == SIDE_START || side == SIDE_END, far = side == SIDE_END || side == SIDE_BOTTOM;
+    bezier_point(&surface, upright ? far : s, upright ? s : far, &du, &dw);
+    *along = upright ? dw : du;
+    return vec_scale(upright ? du : dw, far ? -1 : 1);
+}
+
+/* The largest angle by which the surface is folded along a seam, degrees. Where a patch has no
+   direction (a pole) nothing can be said. */
+static double seam_fold(const RawPatch *a, Side side_a, const RawPatch *b, Side side_b, bool reversed) {
+    enum { PLACES = 16 };
+    double fold = 0;
+    for (int k = 0; k <= PLACES; k++) {
+        double s = (double)k / PLACES;
+        Vec3 along, other, into_a = inwards(a, side_a, s, &along);
+        Vec3 into_b = inwards(b, side_b, reversed ? 1 - s : s, &other);
+        along = vec_unit_or(along, vec(0, 0, 0));
+        into_a = vec_mad(into_a, along, -vec_dot(into_a, along));
+        into_b = vec_mad(into_b, along, -vec_dot(into_b, along));
+        double sizes = vec_len(into_a) * vec_len(into_b);
+        if (sizes > 0) fold = fmax(fold, acos(clamp(-vec_dot(into_a, into_b) / sizes, -1, 1)) * 180 / PI);
+    }
+    return fold;
+}
+
 static bool patches_meet(const Garment *g, const Seam *s, Why *why) {
     const RawPatch *a = &g->patch[s->piece_a - g->npanels], *b = &g->patch[s->piece_b - g->npanels];
     double apart[2] = {0, 0};
@@ -156,7 +186,9 @@ static bool patches_meet(const Garment *g, const Seam *s, Why *why) {
     }
     int way = apart[1] < apart[0];
     if (apart[way] > MEET) return no(why, "the seam does not meet: its sides are up to %.3g m apart", apart[way]);
-    return same_bones[way] || no(why, "the seam does not meet: its sides follow different bones");
+    if (!same_bones[way]) return no(why, "the seam does not meet: its sides follow different bones");
+    double fold = s->crease ? 0 : seam_fold(a, s->side_a, b, s->side_b, way);
+    return fold <= FOLD || no(why, "the seam is folded by up to %.3g degrees: where that is meant, add 'crease'", fold);
 }
 
 bool check_seam(const Garment *g, const Seam *s, Why *why) {
