@@ -219,18 +219,53 @@ static void find_turns(Fit *f) {
         }
 }
 
-/* Parameter length between two rows: the mean distance of their control points, taken over all
-   panels that use this pair of rings, so that panels side by side agree. */
-static double row_height(const Fit *f, int ring_a, int ring_b) {
-    double sum = 0;
-    int n = 0;
-    for (int p = 0; p < f->npanels; p++)
-        for (int k = 0; k + 1 < f->panel[p].nrows; k++) {
-            const FitCurve *a = &f->curve[f->panel[p].curve[k]], *b = &f->curve[f->panel[p].curve[k + 1]];
-            if (a->ring != ring_a || b->ring != ring_b) continue;
-            for (int i = 0; i < 4; i++) sum += vec_dist(a->rest[i], b->rest[i]), n++;
+/* The rows between which patches lie: row k of a panel and the next. */
+typedef struct { int panel, row, group; } Span;
+
+static const FitCurve *span_curve(const Fit *f, const Span *s, int which) {
+    return &f->curve[f->panel[s->panel].curve[s->row + which]];
+}
+
+/* Have the two a column in common, as a side of each? */
+static bool spans_touch(const Fit *f, const Span *a, const Span *b) {
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++)
+            if (span_curve(f, a, 0)->node[i] == span_curve(f, b, 0)->node[k] &&
+                span_curve(f, a, 1)->node[i] == span_curve(f, b, 1)->node[k]) return true;
+    return false;
+}
+
+/* The same number for all spans that hang together by common columns. */
+static void group_spans(const Fit *f, Span *span, int n) {
+    for (int i = 0; i < n; i++) span[i].group = i;
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < i; k++) {
+            int from = span[i].group, to = span[k].group;
+            if (from == to || !spans_touch(f, &span[i], &span[k])) continue;
+            for (int m = 0; m <= i; m++)
+                if (span[m].group == from) span[m].group = to;
         }
-    return n && sum > 0 ? sum / n : 1;
+}
+
+/* Parameter length between two rows: the mean distance of their control points, over all spans
+   of the group, since panels side by side draw one column, also where legs differ in length. */
+static bool find_heights(Tailor *t, Error *e) {
+    Fit *f = t->fit;
+    Span *span = ARENA_NEW(t->arena, Span, GARMENT_PANELS_MAX * GARMENT_ROWS_MAX, e);
+    int n = 0;
+    if (!span) return false;
+    for (int p = 0; p < f->npanels; p++)
+        for (int k = 0; k + 1 < f->panel[p].nrows; k++) span[n++] = (Span){p, k, 0};
+    group_spans(f, span, n);
+    for (int i = 0; i < n; i++) {
+        double sum = 0;
+        int points = 0;
+        for (int k = 0; k < n; k++)
+            for (int c = 0; c < 4 && span[k].group == span[i].group; c++, points++)
+                sum += vec_dist(span_curve(f, &span[k], 0)->rest[c], span_curve(f, &span[k], 1)->rest[c]);
+        f->panel[span[i].panel].height[span[i].row] = sum > 0 ? sum / points : 1;
+    }
+    return true;
 }
 
 static bool make_panels(Tailor *t, Error *e) {
@@ -246,11 +281,7 @@ static bool make_panels(Tailor *t, Error *e) {
         for (int k = 0; k < g->panel[p].nrows; k++) f->panel[p].curve[k] = curve_of(t, &g->panel[p].row[k]);
     }
     find_turns(f);
-    for (int p = 0; p < f->npanels; p++)
-        for (int k = 0; k + 1 < f->panel[p].nrows; k++)
-            f->panel[p].height[k] =
-                row_height(f, f->curve[f->panel[p].curve[k]].ring, f->curve[f->panel[p].curve[k + 1]].ring);
-    return true;
+    return find_heights(t, e);
 }
 
 /* Names. Point k of curve c is 4 c + k, but its ends are nodes, which other curves share; the
