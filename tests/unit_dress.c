@@ -4,15 +4,12 @@
 #include <string.h>
 
 #include "dress/follow.h"
-#include "dress/frame.h"
 #include "dress/tessellate.h"
-#include "tap.h"
+#include "scene.h"
 
 static const char *const SHIPPED[] = {"skirt", "paper-skirt", "trousers", "tshirt"};
 enum { NSHIPPED = 4, DETAIL = 4, DEPTH = 2 };
 
-static Arena arena;
-static Error error;
 static unsigned state = 12345;
 
 static double random_unit(void) {
@@ -20,42 +17,27 @@ static double random_unit(void) {
     return (state >> 8) / 16777216.0;
 }
 
-static void need(bool good) {
-    if (good) return;
-    error_print(&error, stderr);
-    exit(1);
-}
-
+/* A scene, and what its garment is made of. */
 typedef struct {
-    Figure figure;
-    Body body;
-    Garment *garment;
+    Scene scene;
     Fit fit;
     Lattice lattice;
     Leaves leaves;
     Sheet sheet;
     Patch *root;
     Follower follower;
-} Scene;
+} Cloth;
 
-static Scene *open_scene(const char *name) {
-    char path[128];
-    snprintf(path, sizeof path, "garments/%s.garment", name);
-    Scene *s = ARENA_NEW(&arena, Scene, 1, &error);
-    need(s != NULL);
-    s->figure = figure_reference();
-    need(body_fit(body_default(), &s->figure, 16, &arena, &s->body, &error));
-    s->garment = ARENA_NEW(&arena, Garment, 1, &error);
-    need(s->garment != NULL);
-    need(garment_read(path, &arena, s->garment, &error));
-    need(fit_garment(s->garment, &s->figure, &s->body, &arena, &s->fit, &error));
-    need(lattice_build(&s->fit, DETAIL, DEPTH, &arena, &s->lattice, &error));
-    need(leaves_reserve(&s->leaves, &s->lattice, &arena, &error));
-    need(sheet_reserve(&s->sheet, &s->lattice, &arena, &error));
-    need(follow_reserve(&s->follower, &s->fit, &s->figure, &s->body, &arena, &error));
-    s->root = ARENA_NEW(&arena, Patch, s->fit.npatches, &error);
-    need(s->root != NULL);
-    return s;
+static void open_cloth(Cloth *c, const char *name) {
+    Scene *s = &c->scene;
+    scene_open(s, name);
+    need(s, fit_garment(s->garment, &s->figure, &s->body, &s->arena, &c->fit, &s->error));
+    need(s, lattice_build(&c->fit, DETAIL, DEPTH, &s->arena, &c->lattice, &s->error));
+    need(s, leaves_reserve(&c->leaves, &c->lattice, &s->arena, &s->error));
+    need(s, sheet_reserve(&c->sheet, &c->lattice, &s->arena, &s->error));
+    need(s, follow_reserve(&c->follower, &c->fit, &s->figure, &s->body, &s->arena, &s->error));
+    c->root = ARENA_NEW(&s->arena, Patch, c->fit.npatches, &s->error);
+    need(s, c->root != NULL);
 }
 
 /* Every bone turned a little about its start, children with their parents' turn left out: enough
@@ -70,8 +52,8 @@ static Pose random_pose(const Figure *f) {
     return p;
 }
 
-static void shared_points_are_equal(Scene *s, const char *name) {
-    Pose pose = random_pose(&s->figure);
+static void shared_points_are_equal(Cloth *s, const char *name) {
+    Pose pose = random_pose(&s->scene.figure);
     follow_pose(&s->follower, &pose, s->root);
     int shared = 0, different = 0;
     for (int p = 0; p < s->fit.npatches; p++)
@@ -86,7 +68,7 @@ static void shared_points_are_equal(Scene *s, const char *name) {
 }
 
 /* Places on shared edges get the same displacement from either patch, and no slope across. */
-static void field_is_smooth(Scene *s, const char *name) {
+static void field_is_smooth(Cloth *s, const char *name) {
     const Lattice *l = &s->lattice;
     double gap = 0, slope = 0;
     Vec3 *seen = calloc((size_t)l->nplaces, sizeof *seen), *d[LATTICE_LEVELS];
@@ -162,7 +144,7 @@ static int border_loops(const Sheet *s, bool *sound) {
     return loops;
 }
 
-static void split_at_random(Scene *s) {
+static void split_at_random(Cloth *s) {
     leaves_fill(&s->leaves, 0);
     for (int k = 0; k < s->fit.npatches; k++) {
         int level = (int)(random_unit() * (DEPTH + 1)), cells = 1 << level;
@@ -171,7 +153,7 @@ static void split_at_random(Scene *s) {
     }
 }
 
-static double smallest_area(const Scene *s) {
+static double smallest_area(const Cloth *s) {
     double least = INFINITY;
     for (int t = 0; t < s->sheet.ntriangles; t++) {
         Vec3 x[3];
@@ -185,7 +167,7 @@ static double smallest_area(const Scene *s) {
     return least;
 }
 
-static void meshes_are_watertight(Scene *s, const char *name, int openings) {
+static void meshes_are_watertight(Cloth *s, const char *name, int openings) {
     bool all_sound = true, all_loops = true, all_areas = true, leaves_add_up = true;
     Pose rest = figure_rest_pose();
     follow_pose(&s->follower, &rest, s->root);
@@ -209,17 +191,17 @@ static void meshes_are_watertight(Scene *s, const char *name, int openings) {
 }
 
 /* Distance of a point from the parts that a patch collides with, in the canonical stance. */
-static double from_body(const Scene *s, const FitPatch *patch, Vec3 x) {
+static double from_body(const Cloth *s, const FitPatch *patch, Vec3 x) {
     double nearest = INFINITY;
-    for (int b = 0; b < s->body.nparts; b++) {
-        const BodyPart *part = &s->body.part[b];
+    for (int b = 0; b < s->scene.body.nparts; b++) {
+        const BodyPart *part = &s->scene.body.part[b];
         if (patch->collide >> part->role & 1)
             nearest = fmin(nearest, body_distance(part, rigid_unapply(part->frame, x), 1, NULL));
     }
     return nearest;
 }
 
-static void outward(Scene *s, const char *name) {
+static void outward(Cloth *s, const char *name) {
     Pose rest = figure_rest_pose();
     follow_pose(&s->follower, &rest, s->root);
     int inwards = 0;
@@ -233,16 +215,13 @@ static void outward(Scene *s, const char *name) {
 }
 
 /* Dressed in the canonical stance: nothing intersects, nothing is far away. */
-static void rest_is_clear(Scene *s, const char *name) {
-    BodyFrame *body = ARENA_NEW(&arena, BodyFrame, 1, &error);
-    Dresser *d;
+static void rest_is_clear(Cloth *s, const char *name) {
+    Dresser *d = scene_dresser(&s->scene, (DressOptions){0});
     Mesh mesh;
     FrameStats stats;
     Pose rest = figure_rest_pose();
-    need(body != NULL && body_frame_init(body, &s->body, 1, &arena, &error));
-    need(dresser_open(s->garment, &s->figure, &s->body, &(DressOptions){0}, &arena, &d, &error));
-    body_frame_pose(body, &rest);
-    dresser_frame(d, body, 1 / 30.0, true, &mesh, &stats);
+    body_frame_pose(&s->scene.posed, &rest);
+    dresser_frame(d, &s->scene.posed, 1 / 30.0, true, &mesh, &stats);
     OK(stats.residual_edges + stats.residual_cloth + stats.inside == 0,
        "%s: nothing shows through in the canonical stance", name);
     OK(stats.displacement < 0.03, "%s: its rest shape fits the figure (moved %.1f mm)", name,
@@ -255,13 +234,14 @@ static void rest_is_clear(Scene *s, const char *name) {
 int main(void) {
     static const int openings[NSHIPPED] = {2, 2, 3, 4};
     for (int k = 0; k < NSHIPPED; k++) {
-        Scene *s = open_scene(SHIPPED[k]);
-        shared_points_are_equal(s, SHIPPED[k]);
-        field_is_smooth(s, SHIPPED[k]);
-        meshes_are_watertight(s, SHIPPED[k], openings[k]);
-        outward(s, SHIPPED[k]);
-        rest_is_clear(s, SHIPPED[k]);
+        static Cloth c;
+        open_cloth(&c, SHIPPED[k]);
+        shared_points_are_equal(&c, SHIPPED[k]);
+        field_is_smooth(&c, SHIPPED[k]);
+        meshes_are_watertight(&c, SHIPPED[k], openings[k]);
+        outward(&c, SHIPPED[k]);
+        rest_is_clear(&c, SHIPPED[k]);
+        arena_free(&c.scene.arena);
     }
-    arena_free(&arena);
     return tap_done();
 }

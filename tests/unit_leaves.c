@@ -1,32 +1,14 @@
 /* Leaves as patches of their own: they are the surface that the mesh samples, control points and all. */
-#include <stdlib.h>
 #include <string.h>
 
-#include "dress/frame.h"
 #include "dress/push.h"
-#include "tap.h"
+#include "scene.h"
 
-static Arena arena;
-static Error error;
 static unsigned state = 4711;
 
 static double random_unit(void) {
     state = state * 1664525u + 1013904223u;
     return (state >> 8) / 16777216.0;
-}
-
-static void need(bool good) {
-    if (good) return;
-    error_print(&error, stderr);
-    exit(1);
-}
-
-static Garment *read_garment(const char *name) {
-    char path[128];
-    Garment *g = ARENA_NEW(&arena, Garment, 1, &error);
-    snprintf(path, sizeof path, "garments/%s.garment", name);
-    need(g && garment_read(path, &arena, g, &error));
-    return g;
 }
 
 static void split_at_random(Leaves *leaves, int npatches) {
@@ -62,19 +44,20 @@ static Vec3 surface(const Push *p, const Patch *root, int patch, int i, int j) {
 }
 
 static void leaves_are_the_surface(const char *name) {
-    Figure figure = figure_reference();
-    Body body;
+    Scene s;
     Fit fit;
     Lattice lattice;
     Leaves leaves;
     Push push;
     Sheet sheet;
-    need(body_fit(body_default(), &figure, 16, &arena, &body, &error));
-    need(fit_garment(read_garment(name), &figure, &body, &arena, &fit, &error));
-    need(lattice_build(&fit, 4, 3, &arena, &lattice, &error) && leaves_reserve(&leaves, &lattice, &arena, &error));
-    need(push_reserve(&push, &lattice, &arena, &error) && sheet_reserve(&sheet, &lattice, &arena, &error));
-    Patch *root = ARENA_NEW(&arena, Patch, fit.npatches, &error);
-    need(root != NULL);
+    scene_open(&s, name);
+    need(&s, fit_garment(s.garment, &s.figure, &s.body, &s.arena, &fit, &s.error));
+    need(&s, lattice_build(&fit, 4, 3, &s.arena, &lattice, &s.error));
+    need(&s, leaves_reserve(&leaves, &lattice, &s.arena, &s.error));
+    need(&s, push_reserve(&push, &lattice, &s.arena, &s.error));
+    need(&s, sheet_reserve(&sheet, &lattice, &s.arena, &s.error));
+    Patch *root = ARENA_NEW(&s.arena, Patch, fit.npatches, &s.error);
+    need(&s, root != NULL);
     for (int p = 0; p < fit.npatches; p++)
         for (int k = 0; k < 16; k++) root[p].p[k / 4][k % 4] = vec(random_unit(), random_unit(), random_unit());
     split_at_random(&leaves, fit.npatches);
@@ -102,9 +85,9 @@ static void leaves_are_the_surface(const char *name) {
        leaves_count(&leaves), worst);
 
     tessellate(&sheet, &leaves);
-    Edge *border = ARENA_NEW(&arena, Edge, 2 * sheet.nedges, &error);
-    need(border != NULL);
-    int *seen = ARENA_NEW(&arena, int, sheet.nvertices, &error), lost = 0;
+    Edge *border = ARENA_NEW(&s.arena, Edge, 2 * sheet.nedges, &s.error);
+    int *seen = ARENA_NEW(&s.arena, int, sheet.nvertices, &s.error), lost = 0;
+    need(&s, border && seen);
     int count = sheet_borders(&sheet, &leaves, border);
     bool sound = true;
     for (int k = 0; k < count; k++) {
@@ -116,27 +99,21 @@ static void leaves_are_the_surface(const char *name) {
         for (int c = 0; c < 4; c++)
             lost += !seen[sheet.vertex[lattice_place(&lattice, p, c / 2 * lattice.side, c % 2 * lattice.side)]];
     OK(sound && lost == 0, "%s: %d edges on borders, each once, and every corner of a patch on them", name, count);
+    arena_free(&s.arena);
 }
 
 /* A thigh raised into the skirt: all but the vertices with offsets lie on the leaves. */
 static void mesh_lies_on_leaves(void) {
     enum { MOST = 4096 };
-    Figure figure = figure_reference();
-    Body body;
-    BodyFrame frame;
-    Dresser *d;
+    Scene s;
     Mesh mesh;
     FrameStats stats;
     Pose pose = figure_rest_pose();
-    Vec3 hip = figure.start[ROLE_LEFT_THIGH];
-    Mat3 turn = mat_axis_angle(vec(1, 0, 0), -0.4);
-    Rigid raised = {turn, vec_sub(hip, mat_apply(turn, hip))};
-    pose.bone[ROLE_LEFT_THIGH] = pose.bone[ROLE_LEFT_SHIN] = pose.bone[ROLE_LEFT_FOOT] = raised;
-    need(body_fit(body_default(), &figure, 16, &arena, &body, &error));
-    need(body_frame_init(&frame, &body, 1, &arena, &error));
-    need(dresser_open(read_garment("paper-skirt"), &figure, &body, &(DressOptions){0}, &arena, &d, &error));
-    body_frame_pose(&frame, &pose);
-    dresser_frame(d, &frame, 0, true, &mesh, &stats);
+    scene_open(&s, "paper-skirt");
+    Dresser *d = scene_dresser(&s, (DressOptions){0});
+    scene_leg(&s, &pose, true, 23, 0);
+    body_frame_pose(&s.posed, &pose);
+    dresser_frame(d, &s.posed, 0, true, &mesh, &stats);
     static LeafPatch leaf[MOST];
     int n = dresser_leaves(d, LEAVES_CELLS, leaf, MOST), corners = 0, on = 0;
     for (int k = 0; k < n; k++)
@@ -152,12 +129,12 @@ static void mesh_lies_on_leaves(void) {
     OK(dresser_leaves(d, LEAVES_CELLS, leaf, 1) == n, "the number of leaves does not depend on the room for them");
     OK(dresser_leaves(d, LEAVES_BY_RULE, NULL, 0) == stats.leaves && stats.leaves < n, "the rule alone makes %d leaves",
        stats.leaves);
+    arena_free(&s.arena);
 }
 
 int main(void) {
     leaves_are_the_surface("paper-skirt");
     leaves_are_the_surface("trousers");
     mesh_lies_on_leaves();
-    arena_free(&arena);
     return tap_done();
 }
