@@ -132,7 +132,7 @@ const Option *settings_find(const char *name, size_t length, unsigned commands);
 const Option *settings_find_letter(char letter, unsigned commands);
 
 /* The name nearest to a mistyped one, or NULL. */
-const Option *settings_nearest(const char *name, unsigned commands);
+const char *settings_nearest(const char *name, unsigned commands);
 
 /* Puts a value, as text, where it belongs. `text` must outlive the settings. ERR_USAGE that
    names the option, says what was expected and quotes what was found. */

@@ -77,9 +77,9 @@ static bool read_line(const Reader *r, const Line *line) {
     snprintf(key, sizeof key, "%.*s", n, line->word[0]);
     const Option *option = options_find(key, r->command->bit, &no);
     if (!option || !(option->commands & r->command->bit) || line->length[0] != n) {
-        const Option *near = option ? NULL : settings_nearest(key, r->command->bit);
+        const char *near = option ? NULL : settings_nearest(key, r->command->bit);
         if (option) snprintf(text, sizeof text, "'%s' has no option '%s'", r->command->name, key);
-        else if (near) snprintf(text, sizeof text, "unknown option '%s'; did you mean '%s'?", key, near->name);
+        else if (near) snprintf(text, sizeof text, "unknown option '%s'; did you mean '%s'?", key, near);
         else snprintf(text, sizeof text, "unknown option '%s'", key);
         return wrong(r, line, line->word[0], text);
     }

@@ -36,8 +36,8 @@ const Option *options_find(const char *name, unsigned commands, bool *no) {
 }
 
 static bool unknown_option(const Parser *p, const char *word, const char *name, Error *e) {
-    const Option *near = settings_nearest(name, p->command->bit);
-    if (near) return error_set(e, ERR_USAGE, "unknown option '%s'; did you mean '--%s'?", word, near->name);
+    const char *near = settings_nearest(name, p->command->bit);
+    if (near) return error_set(e, ERR_USAGE, "unknown option '%s'; did you mean '--%s'?", word, near);
     return error_set(e, ERR_USAGE, "unknown option '%s'", word);
 }
 

@@ -240,19 +240,11 @@ const Option *settings_find_letter(char letter, unsigned commands) {
     return other;
 }
 
-/* A beginning of a name counts as near, however much is missing. */
-const Option *settings_nearest(const char *name, unsigned commands) {
-    const Option *best = NULL;
-    int least = 4, length = (int)strlen(name);
-    for (const Option *o = settings_table; o->name; o++) {
-        if (!(o->commands & commands)) continue;
-        int distance = length >= 3 && strncmp(o->name, name, (size_t)length) == 0 ? 1 : text_distance(o->name, name);
-        if (distance < least && distance < (int)strlen(o->name) / 2 + 1) {
-            least = distance;
-            best = o;
-        }
-    }
-    return best;
+const char *settings_nearest(const char *name, unsigned commands) {
+    Nearest n = {.word = name};
+    for (const Option *o = settings_table; o->name; o++)
+        if (o->commands & commands) nearest_try(&n, o->name);
+    return n.best;
 }
 
 void settings_clear(Settings *s) {

@@ -196,9 +196,12 @@ int text_distance(const char *a, const char *b) {
     return row[lb] < 9 ? row[lb] : 9;
 }
 
-/* One letter in four may be wrong, and one more: else any short word would do. */
+/* One letter in four may be wrong, and one more: else any short word would do. A beginning of a
+   name counts as near, however much is missing. */
 void nearest_try(Nearest *n, const char *candidate) {
-    int d = text_distance(n->word, candidate), most = (int)strlen(n->word) / 4 + 1;
+    int length = (int)strlen(n->word), most = length / 4 + 1;
+    bool beginning = length >= 3 && strncmp(candidate, n->word, (size_t)length) == 0;
+    int d = beginning ? 1 : text_distance(n->word, candidate);
     if (d > most || (n->best && d >= n->distance)) return;
     n->best = candidate;
     n->distance = d;
