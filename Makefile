@@ -21,7 +21,7 @@ ifeq ($(MODE),)
 $(error BUILD must be release, debug or san, not '$(BUILD)')
 endif
 # Same bytes from every build and compiler: no contraction to FMA, no fast-math, no -march.
-ALL_CFLAGS   = -std=c11 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -pthread $(CWARN) $(MODE) $(CFLAGS)
+ALL_CFLAGS   = -std=c11 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -fno-math-errno -pthread $(CWARN) $(MODE) $(CFLAGS)
 ALL_CXXFLAGS = -std=c++17 -ffp-contract=off -Wall -Wextra $(MODE) $(CXXFLAGS)
 ALL_CPPFLAGS = -iquote include -DKITSUKE_VERSION='"$(VERSION)"' $(CPPFLAGS)
 LIBS   = -ldraco -lm -pthread
@@ -31,7 +31,8 @@ SRC    = $(wildcard src/*/*.c src/*/*.cpp)
 OBJ    = $(SRC:src/%=$(OUT)/%.o)
 CORE   = $(filter-out $(OUT)/app/main.c.o,$(OBJ))
 UNIT   = $(patsubst tests/%.c,$(OUT)/%.t,$(wildcard tests/unit_*.c))
-SCRIPT = $(filter-out tests/lib.sh tests/bench.sh tests/faults.sh tests/cluster.sh,$(wildcard tests/*.sh))
+BENCH  = $(patsubst tests/bench/%.c,$(OUT)/bench/%.o,$(wildcard tests/bench/*.c))
+SCRIPT = $(filter-out tests/lib.sh tests/faults.sh tests/cluster.sh,$(wildcard tests/*.sh))
 FUZZ   = $(patsubst tests/fuzz/%.c,$(OUT)/%,$(wildcard tests/fuzz/fuzz_*.c))
 LINT   = $(patsubst src/%,build/lint/%.ok,$(filter %.c,$(SRC)))
 WALK   = motions/paper-walk.bvh
@@ -126,8 +127,15 @@ check:						## test all three builds, and compare the bytes they write
 	diff -r build/check/release build/check/san
 	@echo 'release, debug and san write the same bytes'
 
-bench: all					## time the stages on the walk of the paper
-	KITSUKE='$(CURDIR)/build/$(NAME)' sh tests/bench.sh
+# BASE=FILE.csv compares with an earlier result.
+bench: all $(OUT)/bench/bench		## time against others' ways, into build/bench.csv (BASE=earlier.csv: compare)
+	KITSUKE='$(CURDIR)/build/$(NAME)' $(OUT)/bench/bench build/bench.csv $(BASE)
+$(OUT)/bench/%.o: tests/bench/%.c $(OUT)/flags
+	@mkdir -p $(@D)
+	$(SAY) '  CC   $<'
+	$(Q)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) -DBENCH_FLAGS='"$(MODE) -ffp-contract=off $(CFLAGS)"' -MMD -MP -c $< -o $@
+$(OUT)/bench/bench: $(BENCH) $(OUT)/core.a
+	$(Q)$(CXX) $(MODE) $(LDFLAGS) $^ $(LIBS) -o $@
 
 lint: $(LINT)					## compiler warnings as errors, gcc -fanalyzer, the rules of the house
 	sh .ci/lint.sh
@@ -172,6 +180,6 @@ clean:						## remove build/
 help:						## this list
 	@awk -F ':.*## *' '/^[a-z-]+:.*## / {printf "  %-12s %s\n", $$1, $$2}' Makefile
 
--include $(OBJ:.o=.d) $(UNIT:=.d) $(LINT:=.d)
+-include $(OBJ:.o=.d) $(UNIT:=.d) $(BENCH:.o=.d) $(LINT:=.d)
 .PHONY: all demo figures motions test test-faults test-cluster check bench lint fuzz fuzz-run format install uninstall dist clean help FORCE
 .SECONDARY:

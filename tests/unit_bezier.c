@@ -1,7 +1,8 @@
 /* The Bernstein form, de Casteljau's split and the blossom describe one surface. */
-#include "geometry/bezier.h"
+#include "geometry/grid.h"
 
 #include <stdint.h>
+#include <string.h>
 
 #include "tap.h"
 
@@ -95,7 +96,39 @@ static void hermite(void) {
     NEAR(vec_dist(vec_scale(vec_sub(out[3], out[2]), 3 / 0.5), db), 0, 1e-14, "and arrives with its slope");
 }
 
+/* Grids give the very numbers of bezier_point and bezier_normal, with any vectors, also round a
+   pole; as a whole and in part. */
+static void grids(void) {
+    enum { FACETS = 32, ALL = FACETS + 1, PART = 9, FIRST = 20 };
+    static Vec3 point[ALL * ALL], normal[ALL * ALL];
+    Arena arena = {0};
+    Error e = {0};
+    GridRows rows;
+    if (!OK(grid_rows(FACETS, &arena, &rows, &e), "basis rows are made")) return;
+    for (Vectors v = VECTORS_PLAIN; v < VECTORS_COUNT; v++) {
+        if (!vectors_usable(v)) continue;
+        int wrong = 0;
+        rows.vectors = v;
+        GridRows part = grid_part(&rows, FIRST, PART);
+        for (int n = 0; n < 20; n++) {
+            const GridRows *u = n % 2 ? &part : &rows, *w = n % 3 ? &part : &rows;
+            Patch patch = random_patch();
+            for (int j = 0; j < 4 && n % 5 == 0; j++) patch.p[3][j] = patch.p[3][0]; /* u = 1 is a pole */
+            grid_points(&patch, u, w, point, normal);
+            for (int j = 0, k = 0; j < w->n; j++)
+                for (int i = 0; i < u->n; i++, k++) {
+                    Vec3 p = bezier_point(&patch, u->t[i], w->t[j], NULL, NULL);
+                    Vec3 q = bezier_normal(&patch, u->t[i], w->t[j]);
+                    wrong += memcmp(&p, &point[k], sizeof p) != 0 || memcmp(&q, &normal[k], sizeof q) != 0;
+                }
+        }
+        OK(wrong == 0, "a grid is the same point by point, vectors %d (%d differ)", v, wrong);
+    }
+    arena_free(&arena);
+}
+
 int main(void) {
+    grids();
     split_keeps_the_surface();
     children_share_their_borders();
     derivatives_are_limits();

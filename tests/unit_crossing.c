@@ -26,7 +26,7 @@ typedef struct {
     Triangle *triangle;
     CrossingSet edges, triangles;
     Crossing *found, *expected;
-    int scenes, hits, wrong_hits, wrong_counts, wrong_order, wrong_capacity, wrong_any, wrong_paths, wrong_plain;
+    int scenes, hits, wrong_hits, wrong_counts, wrong_order, wrong_capacity, wrong_any, wrong_vectors, wrong_plain;
 } Bench;
 
 static bool bench_make(Bench *b, Arena *arena, Error *e) {
@@ -76,15 +76,15 @@ static bool same_count(CrossingCount a, CrossingCount b) {
     return a.pairs_all == b.pairs_all && a.pairs_tested == b.pairs_tested && a.hits == b.hits;
 }
 
-/* Does the path find what is in b->found already, in the same order, with the same counts? */
-static bool same_on_path(Bench *b, TilePath path, CrossingCount wanted) {
+/* Is found with these vectors what is in b->found already, in the same order, with the same counts? */
+static bool same_with(Bench *b, Vectors vectors, CrossingCount wanted) {
     CrossingCount count = {0};
-    b->edges.path = b->triangles.path = path;
+    b->edges.vectors = b->triangles.vectors = vectors;
     crossing_build_edges(&b->edges, b->v, b->edge, b->nedges);
     crossing_build_triangles(&b->triangles, b->w, b->triangle, b->ntriangles);
     Crossing *found = b->found + wanted.hits;
     int n = crossing_find(&b->edges, &b->triangles, found, HITS, &count);
-    b->edges.path = b->triangles.path = TILE_BEST;
+    b->edges.vectors = b->triangles.vectors = VECTORS_BEST;
     return n == wanted.hits && same_count(count, wanted) && memcmp(found, b->found, (size_t)n * sizeof *found) == 0;
 }
 
@@ -115,8 +115,8 @@ static void check(Bench *b) {
     b->wrong_capacity += written != room || !same_count(again, wanted) || part[room].edge != -1;
     b->wrong_order += memcmp(part, b->found, (size_t)room * sizeof *part) != 0;
 
-    for (TilePath path = TILE_PLAIN; path <= TILE_AVX512; path++)
-        if (tile_machine(path)) b->wrong_paths += !same_on_path(b, path, wanted);
+    for (Vectors v = VECTORS_PLAIN; v < VECTORS_COUNT; v++)
+        if (vectors_usable(v)) b->wrong_vectors += !same_with(b, v, wanted);
     b->wrong_plain += !same_plainly(b, wanted);
 
     qsort(b->found, (size_t)found, sizeof *b->found, by_index);
@@ -131,9 +131,9 @@ static void report(Bench *b, const char *what) {
     OK(b->wrong_order == 0, "%s: the same order every time", what);
     OK(b->wrong_capacity == 0, "%s: no more is written than there is room for, all is counted", what);
     OK(b->wrong_any == 0, "%s: crossing_any knows", what);
-    OK(b->wrong_paths == 0, "%s: the same on every kind of vectors", what);
+    OK(b->wrong_vectors == 0, "%s: the same on every kind of vectors", what);
     OK(b->wrong_plain == 0, "%s: the same without culling", what);
-    b->wrong_paths = b->wrong_plain = 0;
+    b->wrong_vectors = b->wrong_plain = 0;
     b->scenes = b->hits = b->wrong_hits = b->wrong_counts = b->wrong_order = b->wrong_capacity = b->wrong_any = 0;
 }
 
@@ -260,8 +260,8 @@ int main(void) {
     Error e = {0};
     Bench b;
     if (!OK(bench_make(&b, &arena, &e), "memory is reserved")) return tap_done();
-    for (TilePath path = TILE_PLAIN; path <= TILE_AVX512; path++)
-        printf("# vectors: %s\n", tile_machine(path) ? tile_machine(path)->name : "(not on this machine)");
+    printf("# AVX2: %s, AVX-512: %s\n", vectors_usable(VECTORS_AVX2) ? "yes" : "not on this machine",
+           vectors_usable(VECTORS_AVX512) ? "yes" : "not on this machine");
     test_soups(&b);
     test_far(&b);
     test_grid(&b);

@@ -17,10 +17,10 @@ typedef struct {
 } CrossingCount;
 
 /* Boxes over one set of segments or triangles, made for repeated queries. Memory is taken at
-   crossing_reserve and kept; building allocates nothing. Private inside but for `path`. */
+   crossing_reserve and kept; building allocates nothing. Private inside but for `vectors`. */
 enum { CROSSING_LEVELS = 3 };
 typedef struct {
-    TilePath path;        /* how boxes are made and compared; a search goes by that of the edges */
+    Vectors vectors;      /* to make and compare boxes with; a search goes by those of the edges */
     int capacity, count;  /* items */
     const Vec3 *position; /* borrowed, as is the next: both must stay until the next build */
     const int *index;     /* per item 2 (segments) or 3 (triangles) vertices */

@@ -3,6 +3,7 @@
 #define GEOMETRY_TILE_H
 
 #include "geometry/vec.h"
+#include "geometry/vectors.h"
 
 enum { TILE_LANES = 16 };
 
@@ -13,15 +14,11 @@ typedef struct { _Alignas(64) float low[3][TILE_LANES], high[3][TILE_LANES]; } T
 /* A bit for each lane. */
 typedef unsigned short TileLanes;
 
-/* The ways to compute the same: plain C, and vectors of 8 and 16 floats on x86-64. */
-typedef enum { TILE_BEST, TILE_PLAIN, TILE_AVX2, TILE_AVX512 } TilePath;
-
 /* Boxes of the n <= 16 items whose corners are position[index[0]], position[index[1]], ... Lanes
    beyond are empty. The box of them all becomes box `lane` of `above`. */
 typedef void TileBoxes(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane);
 
 typedef struct {
-    const char *name;
     TileBoxes *segments, *triangles; /* items of two and of three corners */
     /* The boxes of tile a that overlap box k of tile b; touching is enough. */
     TileLanes (*overlap)(const Tile *a, const Tile *b, int k);
@@ -29,8 +26,7 @@ typedef struct {
     TileLanes (*meet)(const Tile *a, const Tile *b, TileLanes lanes, TileLanes row[TILE_LANES]);
 } TileMachine;
 
-/* NULL where this machine cannot. TILE_BEST: the fastest that it can. */
-const TileMachine *tile_machine(TilePath path);
+const TileMachine *tile_machine(Vectors vectors);
 
 /* The box of all boxes of `below` becomes box `lane` of `above`. */
 void tile_sum(const Tile *below, Tile *above, int lane);

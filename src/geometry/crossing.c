@@ -47,11 +47,11 @@ static void build(CrossingSet *set, const Vec3 *position, const int *index, int 
 }
 
 void crossing_build_edges(CrossingSet *set, const Vec3 *position, const Edge *edge, int n) {
-    build(set, position, (const int *)edge, n, 2, tile_machine(set->path)->segments);
+    build(set, position, (const int *)edge, n, 2, tile_machine(set->vectors)->segments);
 }
 
 void crossing_build_triangles(CrossingSet *set, const Vec3 *position, const Triangle *triangle, int n) {
-    build(set, position, (const int *)triangle, n, 3, tile_machine(set->path)->triangles);
+    build(set, position, (const int *)triangle, n, 3, tile_machine(set->vectors)->triangles);
 }
 
 /* --- the plane --- */
@@ -145,13 +145,13 @@ static int search(Search *s) {
 
 int crossing_find(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
                   CrossingCount *count) {
-    Search s = {edges, triangles, tile_machine(edges->path), .out = out, .capacity = capacity, .count = count};
+    Search s = {edges, triangles, tile_machine(edges->vectors), .out = out, .capacity = capacity, .count = count};
     return search(&s);
 }
 
 bool crossing_any(const CrossingSet *edges, const CrossingSet *triangles, CrossingCount *count) {
     Crossing hit;
-    Search s = {edges, triangles, tile_machine(edges->path), .out = &hit, .capacity = 1, .count = count};
+    Search s = {edges, triangles, tile_machine(edges->vectors), .out = &hit, .capacity = 1, .count = count};
     s.first_only = true;
     return search(&s) > 0;
 }
@@ -241,7 +241,7 @@ int crossing_find_plainly(const CrossingSet *edges, const CrossingSet *triangles
                           CrossingCount *count) {
     enum { BLOCK = 64 };
     Ends ends[BLOCK];
-    Search s = {edges, triangles, tile_machine(edges->path), .out = out, .capacity = capacity, .count = count};
+    Search s = {edges, triangles, tile_machine(edges->vectors), .out = out, .capacity = capacity, .count = count};
     long long pairs = (long long)edges->count * triangles->count;
     float slack = 8 * FLT_EPSILON * fmaxf(reach_of(edges), reach_of(triangles)) + FLT_MIN;
     count->pairs_all += pairs;

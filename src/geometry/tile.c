@@ -92,23 +92,20 @@ static TileLanes plain_meet(const Tile *a, const Tile *b, TileLanes lanes, TileL
     MEET(plain_overlap);
 }
 
-static const TileMachine plain = {"plain", plain_segments, plain_triangles, plain_overlap, plain_meet};
+static const TileMachine plain = {plain_segments, plain_triangles, plain_overlap, plain_meet};
 
 /* --- vectors of x86-64 --- */
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#ifdef VECTORS_ARE_X86
 #include <immintrin.h>
 
-#define AVX2 __attribute__((target("avx2")))
-#define AVX512 __attribute__((target("avx512f")))
-
 /* The fourth lane is 0. */
-AVX2 static inline __m128 corner(const Vec3 *p) {
+FOR_AVX2 static inline __m128 corner(const Vec3 *p) {
     return _mm256_cvtpd_ps(_mm256_maskload_pd(&p->x, _mm256_setr_epi64x(-1, -1, -1, 0)));
 }
 
 /* Four items at a time have their corners in rows, x y z 0; turned, they are lanes of a tile. */
-AVX2 static inline void store_lanes(float out[3][TILE_LANES], int first, const __m128 item[4]) {
+FOR_AVX2 static inline void store_lanes(float out[3][TILE_LANES], int first, const __m128 item[4]) {
     __m128 a = item[0], b = item[1], c = item[2], d = item[3];
     _MM_TRANSPOSE4_PS(a, b, c, d);
     _mm_store_ps(out[0] + first, a);
@@ -116,16 +113,16 @@ AVX2 static inline void store_lanes(float out[3][TILE_LANES], int first, const _
     _mm_store_ps(out[2] + first, c);
 }
 
-AVX2 static inline __m128 least_of(const __m128 v[4]) {
+FOR_AVX2 static inline __m128 least_of(const __m128 v[4]) {
     return _mm_min_ps(_mm_min_ps(v[0], v[1]), _mm_min_ps(v[2], v[3]));
 }
 
-AVX2 static inline __m128 largest_of(const __m128 v[4]) {
+FOR_AVX2 static inline __m128 largest_of(const __m128 v[4]) {
     return _mm_max_ps(_mm_max_ps(v[0], v[1]), _mm_max_ps(v[2], v[3]));
 }
 
 /* A whole tile; `corners` is known where this is inlined. */
-AVX2 static inline void avx2_boxes(Tile *out, const Vec3 *position, const int *index, int corners, Tile *above,
+FOR_AVX2 static inline void avx2_boxes(Tile *out, const Vec3 *position, const int *index, int corners, Tile *above,
                                    int lane) {
     __m128 part_low[4], part_high[4];
     for (int part = 0; part < 4; part++) {
@@ -149,18 +146,18 @@ AVX2 static inline void avx2_boxes(Tile *out, const Vec3 *position, const int *i
     for (int x = 0; x < 3; x++) above->low[x][lane] = low[x], above->high[x][lane] = high[x];
 }
 
-AVX2 static void avx2_segments(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane) {
+FOR_AVX2 static void avx2_segments(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane) {
     if (n < TILE_LANES) plain_segments(out, position, index, n, above, lane);
     else avx2_boxes(out, position, index, 2, above, lane);
 }
 
-AVX2 static void avx2_triangles(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane) {
+FOR_AVX2 static void avx2_triangles(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane) {
     if (n < TILE_LANES) plain_triangles(out, position, index, n, above, lane);
     else avx2_boxes(out, position, index, 3, above, lane);
 }
 
 /* Eight boxes of tile a, from `first` on. */
-AVX2 static inline unsigned half_overlap(const Tile *a, int first, const Tile *b, int k) {
+FOR_AVX2 static inline unsigned half_overlap(const Tile *a, int first, const Tile *b, int k) {
     __m256 all = _mm256_castsi256_ps(_mm256_set1_epi32(-1));
     for (int x = 0; x < 3; x++) {
         __m256 low = _mm256_load_ps(a->low[x] + first), high = _mm256_load_ps(a->high[x] + first);
@@ -170,15 +167,15 @@ AVX2 static inline unsigned half_overlap(const Tile *a, int first, const Tile *b
     return (unsigned)_mm256_movemask_ps(all);
 }
 
-AVX2 static inline TileLanes avx2_overlap(const Tile *a, const Tile *b, int k) {
+FOR_AVX2 static inline TileLanes avx2_overlap(const Tile *a, const Tile *b, int k) {
     return (TileLanes)(half_overlap(a, 0, b, k) | half_overlap(a, 8, b, k) << 8);
 }
 
-AVX2 static TileLanes avx2_meet(const Tile *a, const Tile *b, TileLanes lanes, TileLanes row[TILE_LANES]) {
+FOR_AVX2 static TileLanes avx2_meet(const Tile *a, const Tile *b, TileLanes lanes, TileLanes row[TILE_LANES]) {
     MEET(avx2_overlap);
 }
 
-AVX512 static inline TileLanes avx512_overlap(const Tile *a, const Tile *b, int k) {
+FOR_AVX512 static inline TileLanes avx512_overlap(const Tile *a, const Tile *b, int k) {
     __mmask16 all = 0xFFFF;
     for (int x = 0; x < 3; x++) {
         __m512 low = _mm512_load_ps(a->low[x]), high = _mm512_load_ps(a->high[x]);
@@ -188,23 +185,17 @@ AVX512 static inline TileLanes avx512_overlap(const Tile *a, const Tile *b, int 
     return all;
 }
 
-AVX512 static TileLanes avx512_meet(const Tile *a, const Tile *b, TileLanes lanes, TileLanes row[TILE_LANES]) {
+FOR_AVX512 static TileLanes avx512_meet(const Tile *a, const Tile *b, TileLanes lanes, TileLanes row[TILE_LANES]) {
     MEET(avx512_overlap);
 }
 
-static const TileMachine avx2 = {"avx2", avx2_segments, avx2_triangles, avx2_overlap, avx2_meet};
-static const TileMachine avx512 = {"avx512", avx2_segments, avx2_triangles, avx512_overlap, avx512_meet};
+static const TileMachine avx2 = {avx2_segments, avx2_triangles, avx2_overlap, avx2_meet};
+static const TileMachine avx512 = {avx2_segments, avx2_triangles, avx512_overlap, avx512_meet};
 
-const TileMachine *tile_machine(TilePath path) {
-    bool has_avx2 = __builtin_cpu_supports("avx2"), has_avx512 = has_avx2 && __builtin_cpu_supports("avx512f");
-    switch (path) {
-    case TILE_AVX512: return has_avx512 ? &avx512 : NULL;
-    case TILE_AVX2: return has_avx2 ? &avx2 : NULL;
-    case TILE_PLAIN: return &plain;
-    case TILE_BEST: break;
-    }
-    return has_avx512 ? &avx512 : has_avx2 ? &avx2 : &plain;
+const TileMachine *tile_machine(Vectors vectors) {
+    vectors = vectors_pick(vectors);
+    return vectors == VECTORS_AVX512 ? &avx512 : vectors == VECTORS_AVX2 ? &avx2 : &plain;
 }
 #else
-const TileMachine *tile_machine(TilePath path) { return path == TILE_BEST || path == TILE_PLAIN ? &plain : NULL; }
+const TileMachine *tile_machine(Vectors vectors) { return (void)vectors, &plain; }
 #endif

@@ -1,0 +1,28 @@
+/* Patches on grids: many points and normals of one patch at a time, to the bit what bezier_point
+   and bezier_normal give. */
+#ifndef GEOMETRY_GRID_H
+#define GEOMETRY_GRID_H
+
+#include "base/arena.h"
+#include "geometry/bezier.h"
+#include "geometry/vectors.h"
+
+/* Bernstein values and their derivatives at n parameters, side by side: made once, used for every
+   patch and frame. A part of them, for a part of a patch, is made by moving the pointers. */
+typedef struct {
+    Vectors vectors;             /* to count with; those of the rows along u */
+    int n;
+    double *t;                   /* the parameters */
+    double *value[4], *slope[4];
+} GridRows;
+
+/* At i / facets, i = 0..facets. */
+MUST_CHECK bool grid_rows(int facets, Arena *arena, GridRows *out, Error *e);
+
+/* The rows first..first+n-1. */
+GridRows grid_part(const GridRows *rows, int first, int n);
+
+/* point[j * u->n + i] at (u->t[i], w->t[j]). normal, if not NULL, gets the unit normals. */
+void grid_points(const Patch *patch, const GridRows *u, const GridRows *w, Vec3 *point, Vec3 *normal);
+
+#endif
