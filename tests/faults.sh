@@ -1,7 +1,8 @@
 #!/bin/bash
 # A campaign of faults (make test-faults; FAULTS=20 makes it shorter): whatever happens to a run, every
 # file that it leaves is whole, and --resume ends with the bytes of a run to which nothing happened.
-# Failing allocations: tests/unit_job.c.
+# First at random moments, then at every single call (tests/faults.c).
+[ -w /dev/shm ] && [ -z "${TMPDIR:-}" ] && export TMPDIR=/dev/shm # in memory, for every run waits for its disk
 . "$(dirname "$0")/lib.sh"
 
 FAULTS=${FAULTS:-100}
@@ -12,7 +13,7 @@ for steps in 1 2 3; do "$KITSUKE" walk --preset paper --frames-per-step 8 --step
 cp in/walk2.bvh in/b/walk2.bvh
 "$KITSUKE" walk --preset paper --frames-per-step 8 --steps 60 -o in/long.bvh # two chunks
 printf 'no motion\n' >in/bad.bvh
-args=(in -g skirt.garment -g trousers.garment --no-times --detail 2 --body-detail 8 --frames ::4 -j 3 --format obj,drc)
+args=(in -g skirt.garment -g trousers.garment --no-times --detail 2 --body-detail 8 --frames ::12 -j 3 --format obj,drc)
 dress() { "$KITSUKE" dress "${args[@]}" "$@"; }
 
 must_fail 3 dress -o whole -q >log || exit 1
@@ -143,4 +144,84 @@ gone() {
     done
 }
 ok 'a motion that goes or is cut while it is read' gone
+
+# Faults at every call, one after the other
+if [ "$KITSUKE_BUILD" = san ] || ! ${CC:-cc} -shared -fPIC -O1 -o fault.so "$here/faults.c" -ldl 2>log; then
+    skip 'faults at every call' 'the library that makes them cannot be built, or not be used with sanitizers'
+    done_testing
+fi
+"$KITSUKE" walk --preset paper --frames-per-step 4 --steps 1 -o tiny.bvh
+tiny=(dress tiny.bvh -g skirt.garment --frames 1:2 --no-times --detail 2 --body-detail 8 -q --resume)
+rm -rf whole && "$KITSUKE" "${tiny[@]}" -o whole
+under() { # under FAULT COMMAND...: under that fault; false where it did not come to it
+    local fault=$1
+    shift
+    rm -f hit
+    code=0
+    FAULT=$fault FAULT_HIT=hit LD_PRELOAD=$PWD/fault.so "$@" >fault.out 2>fault.err </dev/null || code=$?
+    [ -e hit ]
+}
+every() { # every KIND JOBS CODES: a run with that fault at the first call, the second, and so on, each resumed
+    local n bad
+    rm -rf out.d
+    for ((n = 1; n < 10000; n++)); do
+        under "$1:$n" "$KITSUKE" "${tiny[@]}" -o out.d -j "$2" || break
+        case " $3 " in *" $code "*) ;; *) echo "$1:$n: exit $code"; cat fault.err; return 1 ;; esac
+        [ "$code" -eq 0 ] || [ "$code" -eq 137 ] || [ -s fault.err ] || { echo "$1:$n: no message"; return 1; }
+        bad=$(torn out.d)
+        [ -z "$bad" ] || { echo "$1:$n: torn: $bad"; return 1; }
+        [ "$code" -eq 137 ] || [ -z "$(find out.d -name '*.tmp' 2>/dev/null)" ] || { echo "$1:$n: .tmp"; return 1; }
+        { "$KITSUKE" "${tiny[@]}" -o out.d && diff -r whole out.d; } || { echo "$1:$n: not resumed"; return 1; }
+        rm -rf out.d
+    done
+    echo "$1, on $2 threads: $((n - 1)) calls" >>calls
+    diff -r whole out.d && [ $n -gt 30 ]
+}
+: >calls
+# exit 0: the lock could not be closed, which is nothing lost
+ok 'no space left at any one call that changes a file' every write 1 '0 4'
+ok 'nor at any behind it' every full 1 '0 4'
+ok 'killed in front of every such call' every kill 1 137
+ok 'and on two threads' every kill 2 137
+ok 'no memory at any one allocation' every memory 1 '0 3 4 5'
+short() { under short:1 "$KITSUKE" "${tiny[@]}" -o short; [ "$code" -eq 0 ] && diff -r whole short; }
+ok 'writes that take but half of what they get' short
+
+# Every other command, where each allocation fails once: the same output, or none and the reason
+frugal() { # frugal ARGUMENT...: ends with the output in the file or folder `made`
+    local n
+    rm -rf made wanted
+    "$KITSUKE" "$@" >wanted.out || return 1
+    [ ! -e made ] || mv made wanted
+    for ((n = 1; n < 20000; n++)); do
+        rm -rf made
+        under memory:$n "$KITSUKE" "$@" || break
+        case $code in
+        0) cmp wanted.out fault.out && { [ ! -e wanted ] || diff -r wanted made; } || { echo "memory:$n"; return 1; } ;;
+        3 | 4 | 5) [ -s fault.err ] || { echo "memory:$n: no message"; return 1; } ;;
+        *) echo "memory:$n: exit $code"; cat fault.err; return 1 ;;
+        esac
+        [ -z "$(find . -name '*.tmp')" ] || { echo "memory:$n: .tmp"; return 1; }
+    done
+    echo "$1: $((n - 1)) allocations" >>calls
+    [ $n -gt 1 ]
+}
+cloth=(-g skirt.garment --frames 1:2 --detail 2 --body-detail 8)
+cp -r whole shard && "$KITSUKE" dress tiny.bvh "${cloth[@]}" -o shard --shard 1/1 -q --force
+"$KITSUKE" dress tiny.bvh "${cloth[@]}" --no-times --print-job >tiny.job
+ok 'no memory: walk' frugal walk --preset paper --steps 1 -o made
+ok 'no memory: inspect' frugal inspect tiny.bvh skirt.garment "$root/garments/adult.body"
+ok 'no memory: draw' frugal draw tiny.bvh "${cloth[@]}" -o made
+ok 'no memory: compare' frugal compare tiny.bvh "${cloth[@]}" --repeat 1 --no-times -q -o made
+ok 'no memory: verify' frugal verify whole --quiet
+ok 'no memory: a merge' frugal dress --merge shard -o made -q
+ok 'no memory: a job' frugal dress --job tiny.job -o made -q --format obj
+sed 's/^/# /' calls
+
+# A thread that comes late to its own motion, when others have dressed it, and helps with the next one
+mkdir late && cp tiny.bvh late/a.bvh && cp in/long.bvh late/b.bvh
+late=(dress late -g skirt.garment --no-times --detail 2 --body-detail 8 --frames ::8 --format none -q)
+"$KITSUKE" "${late[@]}" -o prompt -j 1
+late() { under late:30 "$KITSUKE" "${late[@]}" -o later -j 3; [ "$code" -eq 0 ] && diff -r prompt later; }
+ok 'threads that dress what others have opened' late
 done_testing

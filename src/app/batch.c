@@ -155,7 +155,7 @@ static bool open_job(Batch *b, Worker *w, Slot *slot) {
         return error_set(&result->error, ERR_OUTPUT,
                          "'%s/%s' holds files of an earlier run; --force replaces them, --resume goes on with them",
                          s->output, input->name);
-    if (!input->is_empty && !record_motion(input, s, &order.key.motion, &(Error){0})) order.key.motion = 0;
+    if (!input->is_empty && !record_motion(input, s, &order.key.motion, &result->error)) return false;
     if (is_finished(b, slot, &order.key) || result->error.kind) return false;
     return job_open(&order, &w->lane, slot->notes, &slot->arena, result, &slot->job);
 }

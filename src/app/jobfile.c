@@ -131,22 +131,29 @@ static void print_value(const char *value, size_t n, FILE *out) {
     fputc('"', out);
 }
 
-static bool print_option(const Settings *s, const Option *option, FILE *out, Error *e) {
-    for (int i = 0;; i++) {
-        char *text = NULL;
-        size_t size = 0;
-        FILE *memory = open_memstream(&text, &size);
-        if (!memory) return error_set(e, ERR_INTERNAL, "out of memory for the job");
-        bool is_said = settings_show(s, option, i, memory);
-        if (fclose(memory) != 0) is_said = false;
-        if (is_said) {
-            fprintf(out, "%s ", option->name);
-            print_value(text, size, out);
-            fputc('\n', out);
-        }
-        free(text);
-        if (!is_said) return true;
+/* The line of an option's item i; *is_said tells whether it has one. */
+static bool print_item(const Settings *s, const Option *option, int i, FILE *out, bool *is_said) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *memory = open_memstream(&text, &size);
+    if (!memory) return false;
+    *is_said = settings_show(s, option, i, memory);
+    bool good = !ferror(memory);
+    good = fclose(memory) == 0 && good;
+    if (good && *is_said) {
+        fprintf(out, "%s ", option->name);
+        print_value(text, size, out);
+        fputc('\n', out);
     }
+    free(text);
+    return good;
+}
+
+static bool print_option(const Settings *s, const Option *option, FILE *out, Error *e) {
+    bool is_said = true;
+    for (int i = 0; is_said; i++)
+        if (!print_item(s, option, i, out, &is_said)) return error_set(e, ERR_INTERNAL, "out of memory for the job");
+    return true;
 }
 
 bool jobfile_print(const Command *command, const Settings *s, FILE *out, Error *e) {

@@ -7,11 +7,10 @@
 #include <dirent.h>
 #include <errno.h>
 #include <inttypes.h>
-#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-enum { RECORD_MAX = 1 << 22, KEY_LINE = 200 };
+enum { RECORD_MAX = 1 << 22, KEY_LINE = 200, LIST_MAX = 1 << 15 };
 
 static bool add_file(Digest *d, const char *path, Error *e) { return !path || digest_file(d, path, e); }
 
@@ -29,15 +28,14 @@ static void list_options(const Settings *s, FILE *out) {
 }
 
 bool record_options(const Settings *s, Digest *out, Error *e) {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *list = open_memstream(&text, &size);
+    char text[LIST_MAX];
+    FILE *list = fmemopen(text, sizeof text, "w");
     if (!list) return error_set(e, ERR_INTERNAL, "out of memory for the list of options");
     list_options(s, list);
-    bool good = fclose(list) == 0 || error_set(e, ERR_INTERNAL, "out of memory for the list of options");
+    bool good = fflush(list) == 0 || error_set(e, ERR_INTERNAL, "the list of options is too long");
     *out = digest_start();
-    if (good) digest_add(out, text, size);
-    free(text);
+    if (good) digest_add(out, text, (size_t)ftell(list));
+    fclose(list);
     for (int i = 0; good && i < s->garments.count; i++) good = add_file(out, s->garments.item[i], e);
     digest_text(out, s->body ? "body" : "");
     digest_text(out, s->roles ? "roles" : "");
@@ -52,6 +50,7 @@ static bool add_skeletons(Digest *d, const char *motion, Error *e) {
     int n = slash ? (int)(slash - motion) + 1 : 0;
     snprintf(path, sizeof path, "%.*s.", n, motion);
     DIR *folder = opendir(path);
+    if (!folder && errno != EACCES) return error_set(e, ERR_INPUT, "cannot open '%s': %s", path, strerror(errno));
     Digest sum = 0;
     bool good = true;
     for (struct dirent *entry; folder && good && (entry = readdir(folder));) {
@@ -68,21 +67,23 @@ static bool add_skeletons(Digest *d, const char *motion, Error *e) {
     return good;
 }
 
-static bool is_bvh(const char *path) {
+static bool find_whether_bvh(const char *path, bool *is_bvh, Error *e) {
     char word[10] = "";
     FILE *f = fopen(path, "rb");
-    bool found = f && fscanf(f, "%9s", word) == 1 && strcasecmp(word, "HIERARCHY") == 0;
-    if (f) fclose(f);
-    return found;
+    if (!f) return error_set(e, ERR_INPUT, "cannot open '%s': %s", path, strerror(errno));
+    *is_bvh = fscanf(f, "%9s", word) == 1 && strcasecmp(word, "HIERARCHY") == 0;
+    bool good = !ferror(f) || error_set(e, ERR_INPUT, "cannot read '%s'", path);
+    fclose(f);
+    return good;
 }
 
 bool record_motion(const Input *input, const Settings *s, Digest *out, Error *e) {
     *out = 0;
     if (strcmp(input->path, "-") == 0) return true;
     Digest d = digest_start();
-    if (!digest_file(&d, input->path, e)) return false;
-    bool has_skeleton = is_bvh(input->path);
-    if (!has_skeleton && !(s->asf ? digest_file(&d, s->asf, e) : add_skeletons(&d, input->path, e))) return false;
+    bool is_bvh = false;
+    if (!digest_file(&d, input->path, e) || !find_whether_bvh(input->path, &is_bvh, e)) return false;
+    if (!is_bvh && !(s->asf ? digest_file(&d, s->asf, e) : add_skeletons(&d, input->path, e))) return false;
     *out = d ? d : 1;
     return true;
 }

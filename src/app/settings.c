@@ -5,6 +5,7 @@
    long names, understood there too. Nothing else in the program knows an option's name. */
 #include "app/settings.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/text.h"
@@ -388,7 +389,8 @@ static bool put_stairs(Gait *field, const Option *option, const char *text, Erro
         at += length;
         if (!*at) break;
     }
-    bool good = n == 2 && !*at && part[0] != 0 && part[1] > 0 && part[2] >= 1 && part[2] <= 1e6;
+    bool good = n == 2 && !*at && part[0] != 0 && fabs(part[0]) <= 1e6 && part[1] > 0 && part[1] <= 1e6 &&
+                part[2] >= 1 && part[2] <= 1e6;
     if (!good || part[2] != (int)part[2])
         return error_set(e, ERR_USAGE, "option '--%s': expected RISE:RUN:COUNT, as in 0.17:0.29:8, found '%s'",
                          option->name, text);

@@ -194,6 +194,7 @@ static bool mirror_collides_and_pins(Mirror *m) {
                      other_parts(old->parts)};
         if (c.from_ring == old->from_ring && c.to_ring == old->to_ring && c.piece == old->piece) continue;
         if (g->ncollides == GARMENT_COLLIDES_MAX) return no(m, "more than %d collides", GARMENT_COLLIDES_MAX);
+        if (!check_collide(g, &c, m->why)) return false;
         g->collide[g->ncollides++] = c;
     }
     for (int i = 0, n = g->npins; i < n; i++) {
@@ -201,6 +202,7 @@ static bool mirror_collides_and_pins(Mirror *m) {
         Pin pin = {other_ring(m, old->ring), other_piece(m, old->piece), old->side};
         if (pin.ring == old->ring && pin.piece == old->piece) continue;
         if (g->npins == GARMENT_PINS_MAX) return no(m, "more than %d pins", GARMENT_PINS_MAX);
+        if (!check_pin(g, &pin, m->why)) return false;
         g->pin[g->npins++] = pin;
     }
     return true;
