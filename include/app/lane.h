@@ -12,6 +12,7 @@
 typedef struct {
     Arena arena;
     ObjWriter obj;
+    DrcWriter drc;
     Wearer wearer;       /* motion, figure and body are the job's, the pose is its own */
     Dresser **dresser;   /* one for each garment */
     Cloth cloth;         /* the room that these need */

@@ -14,14 +14,19 @@ typedef struct {
     bool keep_order;    /* sequential encoding: vertices and triangles stay in order */
 } DrcOptions;
 
+/* The memory that a sequence of files is encoded with. Clear with {0}; one belongs to one thread. */
+typedef struct { struct DrcKept *kept; } DrcWriter;
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 /* Encodes the mesh (positions times `unit`, normals and u, w where present) and writes it as
    obj_write does: temporary name, then rename. *bytes, if not NULL, gets the size. ERR_OUTPUT;
    ERR_INTERNAL where Draco refuses. */
-MUST_CHECK bool drc_write(const char *path, const Mesh *mesh, double unit, const DrcOptions *options,
+MUST_CHECK bool drc_write(DrcWriter *w, const char *path, const Mesh *mesh, double unit, const DrcOptions *options,
                           long long *bytes, Error *e);
+void drc_writer_free(DrcWriter *w);
+
 /* Decodes positions and triangles, normals and u, w if present, into the arena. ERR_INPUT. */
 MUST_CHECK bool drc_read(const char *path, Arena *arena, Mesh *out, Error *e);
 #ifdef __cplusplus

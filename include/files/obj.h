@@ -10,6 +10,9 @@
 typedef struct {
     char *text; /* of the last file */
     size_t size, capacity;
+    struct ObjCorner *corner; /* how corner i is written in a face, for all files so far of its kind */
+    int ncorners, corner_capacity;
+    int corner_kind;
     double metre; /* how many units of the file the first line says a metre has; 0: as many as `unit` */
 } ObjWriter;
 

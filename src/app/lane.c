@@ -28,6 +28,7 @@ static double lap(double *since) {
 void lane_free(Lane *lane) {
     arena_free(&lane->arena);
     obj_writer_free(&lane->obj);
+    drc_writer_free(&lane->drc);
 }
 
 bool lane_open(Lane *lane, const LaneWork *work, Error *e) {
@@ -62,7 +63,7 @@ static bool write_mesh(Run *r, const char *name, int frame, const Mesh *mesh, lo
     }
     if (formats & FORMAT_DRC) {
         snprintf(path, sizeof path, "%s/%s.%04d.drc", r->work->folder, name, frame);
-        if (!drc_write(path, mesh, 1, &s->drc, &n, e)) return false;
+        if (!drc_write(&r->lane->drc, path, mesh, 1, &s->drc, &n, e)) return false;
         *bytes += n;
     }
     return true;

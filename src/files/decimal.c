@@ -34,13 +34,17 @@ static char *put_whole(char *out, uint32_t n) {
 char *decimal_put_int(char *out, int n) { return put_whole(out, (uint32_t)n); }
 
 char *decimal_put(char *out, double x) {
-    double product = fabs(x) * 1e6, whole = floor(product), fraction = product - whole;
-    if (!(product < 1e15) || fabs(fraction - 0.5) <= product * 0x1p-52)
-        return out + snprintf(out, DECIMAL_MAX, "%.6f", x);
-    uint64_t k = (uint64_t)whole + (fraction > 0.5);
-    uint32_t millionths = (uint32_t)(k % 1000000);
-    if (signbit(x)) *out++ = '-';
-    out = put_whole(out, (uint32_t)(k / 1000000));
+    double product = fabs(x) * 1e6;
+    if (!(product < 1e15)) return out + snprintf(out, DECIMAL_MAX, "%.6f", x);
+    int64_t k = (int64_t)product;
+    double fraction = product - (double)k;
+    if (fabs(fraction - 0.5) <= product * 0x1p-52) return out + snprintf(out, DECIMAL_MAX, "%.6f", x);
+    k += fraction > 0.5;
+    uint32_t whole = (uint32_t)(k / 1000000), millionths = (uint32_t)(k % 1000000);
+    *out = '-';
+    out += signbit(x) != 0;
+    if (whole < 10) *out++ = (char)('0' + whole);
+    else out = put_whole(out, whole);
     *out++ = '.';
     memcpy(out, PAIRS + 2 * (millionths / 10000), 2);
     memcpy(out + 2, PAIRS + 2 * (millionths / 100 % 100), 2);

@@ -24,45 +24,75 @@ using draco::GeometryAttribute;
 
 static const size_t FILE_LIMIT = size_t(1) << 30;
 
-/* Attribute values are asked for by vertex number and given as up to three floats. */
-template <typename Value>
-static bool add_attribute(draco::Mesh *mesh, GeometryAttribute::Type type, int components, Value value) {
+/* The memory of a writer: the mesh with its attributes, the encoder and the bytes. What
+   Draco needs within one encoding, connectivity included, it takes and gives back itself. */
+struct DrcKept {
+    draco::Mesh mesh;
+    draco::Encoder encoder;
+    draco::EncoderBuffer buffer;
+    int attribute[draco::GeometryAttribute::NAMED_ATTRIBUTES_COUNT];
+    bool has_normal, has_uv;
+};
+
+static void add_attribute(DrcKept *kept, GeometryAttribute::Type type, int components) {
     GeometryAttribute shape;
     shape.Init(type, nullptr, uint8_t(components), draco::DT_FLOAT32, false, int64_t(sizeof(float)) * components, 0);
-    draco::PointAttribute *attribute = mesh->attribute(mesh->AddAttribute(shape, true, mesh->num_points()));
-    for (uint32_t i = 0; i < mesh->num_points(); i++) {
-        float x[3] = {0, 0, 0};
-        value(i, x);
-        for (float number : x)
-            if (!std::isfinite(number)) return false;
-        attribute->SetAttributeValue(draco::AttributeValueIndex(i), x);
+    kept->attribute[type] = kept->mesh.AddAttribute(shape, true, 0);
+}
+
+static DrcKept *make_kept(bool has_normal, bool has_uv) {
+    DrcKept *kept = new DrcKept{};
+    kept->has_normal = has_normal;
+    kept->has_uv = has_uv;
+    add_attribute(kept, GeometryAttribute::POSITION, 3);
+    if (has_normal) add_attribute(kept, GeometryAttribute::NORMAL, 3);
+    if (has_uv) add_attribute(kept, GeometryAttribute::TEX_COORD, 2);
+    return kept;
+}
+
+/* Room for a value for each point. */
+static float *values_of(DrcKept *kept, GeometryAttribute::Type type) {
+    draco::PointAttribute *attribute = kept->mesh.attribute(kept->attribute[type]);
+    attribute->Reset(kept->mesh.num_points());
+    return reinterpret_cast<float *>(attribute->GetAddress(draco::AttributeValueIndex(0)));
+}
+
+/* Sums of finite numbers are finite, or overflow, which no mesh of ours comes near. */
+static bool put_vectors(float *out, const Vec3 *v, int n, double unit) {
+    float sum = 0;
+    for (int i = 0; i < n; i++, out += 3) {
+        out[0] = float(v[i].x * unit);
+        out[1] = float(v[i].y * unit);
+        out[2] = float(v[i].z * unit);
+        sum += std::fabs(out[0]) + std::fabs(out[1]) + std::fabs(out[2]);
     }
-    return true;
+    return std::isfinite(sum);
 }
 
-static void put_vector(float x[3], const Vec3 &v, double unit) {
-    x[0] = float(v.x * unit);
-    x[1] = float(v.y * unit);
-    x[2] = float(v.z * unit);
+static bool put_uv(float *out, const Mesh *mesh) {
+    float sum = 0;
+    for (int i = 0; i < mesh->nvertices; i++, out += 2) {
+        out[0] = float(mesh->u[i]);
+        out[1] = float(mesh->w[i]);
+        sum += std::fabs(out[0]) + std::fabs(out[1]);
+    }
+    return std::isfinite(sum);
 }
 
-static bool fill(draco::Mesh *out, const Mesh *mesh, double unit, Error *e) {
-    out->set_num_points(uint32_t(mesh->nvertices));
-    out->SetNumFaces(size_t(mesh->ntriangles));
+static bool fill(DrcKept *kept, const Mesh *mesh, double unit, Error *e) {
+    draco::Mesh &out = kept->mesh;
+    out.set_num_points(uint32_t(mesh->nvertices));
+    out.SetNumFaces(size_t(mesh->ntriangles));
     for (int t = 0; t < mesh->ntriangles; t++) {
         const int *v = mesh->triangle[t].v;
-        out->SetFace(
+        out.SetFace(
             draco::FaceIndex(uint32_t(t)),
             {draco::PointIndex(uint32_t(v[0])), draco::PointIndex(uint32_t(v[1])), draco::PointIndex(uint32_t(v[2]))});
     }
-    bool good = add_attribute(out, GeometryAttribute::POSITION, 3,
-                              [=](uint32_t i, float *x) { put_vector(x, mesh->position[i], unit); });
-    if (good && mesh->normal)
-        good = add_attribute(out, GeometryAttribute::NORMAL, 3,
-                             [=](uint32_t i, float *x) { put_vector(x, mesh->normal[i], 1); });
-    if (good && mesh->u && mesh->w)
-        good = add_attribute(out, GeometryAttribute::TEX_COORD, 2,
-                             [=](uint32_t i, float *x) { x[0] = float(mesh->u[i]), x[1] = float(mesh->w[i]); });
+    bool good = put_vectors(values_of(kept, GeometryAttribute::POSITION), mesh->position, mesh->nvertices, unit) &&
+                (!kept->has_normal ||
+                 put_vectors(values_of(kept, GeometryAttribute::NORMAL), mesh->normal, mesh->nvertices, 1)) &&
+                (!kept->has_uv || put_uv(values_of(kept, GeometryAttribute::TEX_COORD), mesh));
     return good || error_set(e, ERR_INTERNAL, "the mesh has a number that is not finite");
 }
 
@@ -75,14 +105,21 @@ static void set_options(draco::Encoder *encoder, const DrcOptions &o) {
     encoder->SetAttributeQuantization(GeometryAttribute::TEX_COORD, o.uv_bits > 0 ? o.uv_bits : 12);
 }
 
-bool drc_write(const char *path, const Mesh *mesh, double unit, const DrcOptions *options, long long *bytes,
-               Error *e) try {
-    draco::Mesh encoded;
-    if (!fill(&encoded, mesh, unit, e)) return false;
-    draco::Encoder encoder;
-    set_options(&encoder, *options);
-    draco::EncoderBuffer buffer;
-    const draco::Status status = encoder.EncodeMeshToBuffer(encoded, &buffer);
+void drc_writer_free(DrcWriter *w) {
+    delete w->kept;
+    w->kept = nullptr;
+}
+
+bool drc_write(DrcWriter *w, const char *path, const Mesh *mesh, double unit, const DrcOptions *options,
+               long long *bytes, Error *e) try {
+    bool has_normal = mesh->normal, has_uv = mesh->u && mesh->w;
+    if (w->kept && (w->kept->has_normal != has_normal || w->kept->has_uv != has_uv)) drc_writer_free(w);
+    if (!w->kept) w->kept = make_kept(has_normal, has_uv);
+    if (!fill(w->kept, mesh, unit, e)) return false;
+    set_options(&w->kept->encoder, *options);
+    draco::EncoderBuffer &buffer = w->kept->buffer;
+    buffer.Clear();
+    const draco::Status status = w->kept->encoder.EncodeMeshToBuffer(w->kept->mesh, &buffer);
     if (!status.ok()) return error_set(e, ERR_INTERNAL, "cannot encode '%s': Draco says: %s", path, status.error_msg());
     if (bytes) *bytes = (long long)buffer.size();
     return output_file(path, buffer.data(), buffer.size(), e);

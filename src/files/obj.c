@@ -2,7 +2,8 @@
 
    A frame is some ten thousand short lines, so numbers are formatted by decimal.c and the room
    in the buffer is asked for once a line. Vertices, texture coordinates and normals share
-   their numbering: a corner is i, i/i, i//i or i/i/i. */
+   their numbering: a corner is i, i/i, i//i or i/i/i. What that looks like depends on i alone, so
+   it is written once for all files, and faces, whatever they are, are put together from it. */
 #include "files/obj.h"
 
 #include <stdlib.h>
@@ -84,9 +85,45 @@ static bool put_group(ObjWriter *w, const char *name, Error *e) {
     return true;
 }
 
+/* ' ' and a corner: three numbers of at most ten digits. Copied whole, which is faster than a bit of
+   it; the next one goes over what is too much. */
+enum { CORNER_ROOM = 36 };
+struct ObjCorner { char text[CORNER_ROOM]; int length; };
+
+enum { HAS_UV = 1, HAS_NORMAL = 2 };
+
+static void format_corner(struct ObjCorner *c, int number, int kind) {
+    *c = (struct ObjCorner){{0}, 0};
+    char *first = c->text + 1, *at = decimal_put_int(first, number);
+    size_t length = (size_t)(at - first);
+    c->text[0] = ' ';
+    if (kind) *at++ = '/';
+    if (kind & HAS_UV) at = (char *)memcpy(at, first, length) + length;
+    if (kind & HAS_NORMAL) {
+        *at++ = '/';
+        at = (char *)memcpy(at, first, length) + length;
+    }
+    c->length = (int)(at - c->text);
+}
+
+/* Sees to it that there are corners for n vertices. */
+static bool make_corners(ObjWriter *w, int n, int kind, Error *e) {
+    if (kind != w->corner_kind) w->ncorners = 0;
+    w->corner_kind = kind;
+    if (n > w->corner_capacity) {
+        int capacity = n + n / 2;
+        struct ObjCorner *corner = realloc(w->corner, (size_t)capacity * sizeof *corner);
+        if (!corner) return error_set(e, ERR_INTERNAL, "out of memory for an OBJ file of %d vertices", n);
+        w->corner = corner;
+        w->corner_capacity = capacity;
+    }
+    for (; w->ncorners < n; w->ncorners++) format_corner(&w->corner[w->ncorners], w->ncorners + 1, kind);
+    return true;
+}
+
 static bool put_faces(ObjWriter *w, const Mesh *mesh, Error *e) {
-    bool has_uv = mesh->u && mesh->w, has_normal = mesh->normal != NULL;
-    int group = 0;
+    int group = 0, kind = (mesh->u && mesh->w ? HAS_UV : 0) | (mesh->normal ? HAS_NORMAL : 0);
+    if (!make_corners(w, mesh->nvertices, kind, e)) return false;
     for (int t = 0; t < mesh->ntriangles; t++) {
         for (; group < mesh->ngroups && mesh->group[group].first <= t; group++)
             if (mesh->group[group].count > 0 && !put_group(w, mesh->group[group].name, e)) return false;
@@ -94,16 +131,9 @@ static bool put_faces(ObjWriter *w, const Mesh *mesh, Error *e) {
         if (!at) return false;
         *at++ = 'f';
         for (int c = 0; c < 3; c++) {
-            char *number = at + 1;
-            *at = ' ';
-            at = decimal_put_int(number, mesh->triangle[t].v[c] + 1);
-            size_t length = (size_t)(at - number);
-            if (has_uv || has_normal) *at++ = '/';
-            if (has_uv) at = (char *)memcpy(at, number, length) + length;
-            if (has_normal) {
-                *at++ = '/';
-                at = (char *)memcpy(at, number, length) + length;
-            }
+            const struct ObjCorner *corner = &w->corner[mesh->triangle[t].v[c]];
+            memcpy(at, corner->text, CORNER_ROOM);
+            at += corner->length;
         }
         *at++ = '\n';
         advance(w, at);
@@ -124,5 +154,6 @@ bool obj_write(ObjWriter *w, const char *path, const Mesh *mesh, double unit, lo
 
 void obj_writer_free(ObjWriter *w) {
     free(w->text);
+    free(w->corner);
     *w = (ObjWriter){0};
 }
