@@ -73,8 +73,9 @@ refuses() { # refuses PATTERN ARGUMENT...
 ok '--max-frames' refuses 'in/walk2.bvh:[0-9]+:9: error: 8 frames are more than the limit of 7' --max-frames 7
 ok '--max-joints' refuses 'more than 5 joints' --max-joints 5
 ok 'as many as there are' dress in/walk2.bvh -o bounds --max-frames 8 --max-joints 100
-ok '--max-memory: exit 5' must_fail 5 dress in/walk2.bvh -o memory --max-memory 1
-like 'says what was allowed' "$(cat err)" 'at most 1048576 allowed'
+ok '--max-memory: exit 3' must_fail 3 dress in/walk2.bvh -o memory --max-memory 1
+like 'says what was allowed' "$(cat err)" 'needs more memory than the limit of 1 MB'
+like 'and counts as refused' "$(cat memory/summary.csv)" '^walk2,skirt,refused,'
 ok 'and writes nothing' test ! -e memory/walk2
 ok '--max-memory that suffices' dress in/walk2.bvh -o memory --max-memory 200
 

@@ -140,6 +140,8 @@ is 'dress says nothing on standard output' "$(cat out)" ''
 like 'but a summary on stderr' "$(cat err)" '^1 of 1 motion dressed, 2 frames, '
 "$KITSUKE" dress "$walk" -g "$skirt" -o j -f --frames 1:2 -q >out 2>err
 is '--quiet says nothing' "$(cat out err)" ''
+must_fail 3 "$KITSUKE" dress none.bvh -g "$skirt" -o j -f >log
+is 'one motion that fails is one message' "$(wc -l <err | tr -d ' ')" 1
 "$KITSUKE" dress "$walk" -g "$skirt" -o j -f --frames 1:2 -v 2>err
 stages() {
     awk '/ s +[0-9.]+ %/ { for (i = 1; i <= NF; i++) if ($i == "s") sum += $(i - 1) } /together/ { whole = $2 }
@@ -147,7 +149,7 @@ stages() {
 }
 ok '--verbose prints stages that add up to the whole' stages
 "$KITSUKE" dress "$walk" -g "$skirt" -o j -f --frames 1:3 --progress always 2>err
-like '--progress always draws a line' "$(tr '\r' '\n' <err)" '^[01]/1 motions, [0-9]+ frames/s'
+like '--progress always draws a line' "$(tr '\r' '\n' <err)" '^.\[J[01]/1 motions, [0-9]+ frames/s'
 "$KITSUKE" dress "$walk" -g "$skirt" -o j -f --frames 1:3 2>err
 is 'no progress on a pipe' "$(tr -d -c '\r' <err | wc -c | tr -d ' ')" 0
 

@@ -11,7 +11,7 @@ typedef struct {
     double finished;            /* weight of those that are done */
     double started, drawn;      /* clock_seconds */
     long long frames;           /* that were dressed */
-    int shown;                  /* characters that stand in the line now */
+    bool is_shown;              /* does the line stand there now? */
 } Progress;
 
 /* Draws what the settings ask for. Not thread-safe: the caller has a lock. */

@@ -18,7 +18,8 @@ typedef struct {
 } Arena;
 
 /* Returns `count` zeroed items of `size` bytes, aligned to 64 bytes, never NULL for
-   count * size == 0. NULL with ERR_INTERNAL where memory or the limit is exhausted. */
+   count * size == 0. NULL with ERR_INTERNAL where memory is exhausted,
+   with ERR_INPUT where that would be beyond the limit. */
 void *arena_array(Arena *a, size_t count, size_t size, Error *e);
 
 /* Typed form: Vec3 *p = ARENA_NEW(a, Vec3, n, e); */

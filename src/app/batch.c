@@ -96,13 +96,18 @@ static void speak(Batch *b) {
     }
 }
 
+/* What went wrong says of which motion, also where it lies too deep in the house to know. */
+static void name_motion(Error *e, const char *path) {
+    if (e->kind && !e->file[0] && !strstr(e->text, path)) snprintf(e->file, sizeof e->file, "%s", path);
+}
+
 /* The motion is over, one way or another: its messages, its memory, its place. */
 static void finish(Batch *b, Slot *slot) {
     const Settings *s = b->wardrobe->settings;
     Item *item = &b->item[slot->item];
-    ErrorKind kind = item->result.error.kind;
     if (slot->job) job_close(slot->job, s->verbose ? slot->said : NULL);
-    kind = item->result.error.kind;
+    ErrorKind kind = item->result.error.kind;
+    name_motion(&item->result.error, b->input[slot->item].path);
     if (slot->said) {
         if (slot->notes && !s->quiet) notes_print(slot->notes, b->input[slot->item].path, slot->said);
         if (kind && kind != ERR_INTERRUPTED) error_print(&item->result.error, slot->said);
@@ -306,11 +311,15 @@ static void print_end(const Batch *b) {
         bytes += r->bytes;
     }
     if (b->wardrobe->settings->verbose) print_stages(b, elapsed);
+    if (b->count == 1 && done + frames == 0) return; /* the error has said it all */
     fprintf(stderr, "%d of %d motion%s dressed", done, b->count, b->count == 1 ? "" : "s");
     if (before) fprintf(stderr, " (%d before)", before);
-    fprintf(stderr, ", %lld frame%s, %lld with residuals, ", frames, frames == 1 ? "" : "s", residual);
-    print_bytes((double)bytes);
-    fprintf(stderr, " in %.1f s (%.0f frames/s)\n", elapsed, elapsed > 0 ? (double)frames / elapsed : 0);
+    if (frames) {
+        fprintf(stderr, ", %lld frame%s, %lld with residuals, ", frames, frames == 1 ? "" : "s", residual);
+        print_bytes((double)bytes);
+        fprintf(stderr, " in %.1f s (%.0f frames/s)", elapsed, (double)frames / elapsed);
+    }
+    fputc('\n', stderr);
 }
 
 static bool prepare(Batch *b, Arena *arena, Error *e) {

@@ -134,7 +134,7 @@ static bool inspect_figure(const Motion *m, const Settings *s, Arena *arena, Not
     FigureOptions options = {s->unit, s->scale, (char)s->up};
     if (!roles_read(m, s->roles, arena, notes, &roles, &why)) {
         if (s->roles || why.kind != ERR_INPUT) return *e = why, false;
-        printf("  human       no: %s\n", why.text);
+        printf("  %s\n", why.text); /* no human skeleton, and what it lacks */
         return true;
     }
     if (!figure_build(m, &roles, &options, arena, notes, &figure, e)) return false;

@@ -70,8 +70,9 @@ void help_command(const Command *command, FILE *out) {
 }
 
 static const char exit_codes[] =
-    "Exit status: 0 done; 1 done, but --strict found the body showing through;\n"
-    "2 wrong usage; 3 bad input; 4 cannot write; 5 internal; 130 interrupted.\n"
+    "Exit status: 0 done; 1 done, but --strict found the body showing through, or\n"
+    "verify found anything; 2 wrong usage; 3 bad input; 4 cannot write; 5 internal, or\n"
+    "out of memory; 130 interrupted.\n"
     "With several motions the worst one decides.\n";
 
 void help_program(const Command *commands, FILE *out) {

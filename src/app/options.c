@@ -41,6 +41,11 @@ static bool unknown_option(const Parser *p, const char *word, const char *name, 
     return error_set(e, ERR_USAGE, "unknown option '%s'", word);
 }
 
+static bool unknown_letter(char letter, const char *word, Error *e) {
+    if (!word[2]) return error_set(e, ERR_USAGE, "unknown option '%s'", word);
+    return error_set(e, ERR_USAGE, "unknown option '-%c' in '%s'", letter, word);
+}
+
 static bool foreign_option(const Parser *p, const Option *option, Error *e) {
     return error_set(e, ERR_USAGE, "'%s' has no option '--%s'", p->command->name, option->name);
 }
@@ -85,7 +90,7 @@ static bool parse_long(Parser *p, const char *word, Error *e) {
 static bool parse_letters(Parser *p, const char *word, Error *e) {
     for (const char *at = word + 1; *at; at++) {
         const Option *option = settings_find_letter(*at, p->command->bit);
-        if (!option) return error_set(e, ERR_USAGE, "unknown option '-%c' in '%s'", *at, word);
+        if (!option) return unknown_letter(*at, word, e);
         if (!(option->commands & p->command->bit)) return foreign_option(p, option, e);
         if (option->kind != KIND_FLAG) {
             const char *value = at[1] ? at + 1 : next_value(p, option, e);

@@ -15,11 +15,13 @@ struct ArenaBlock {
 /* The head is padded so that the bytes behind it start aligned. */
 #define HEAD ((sizeof(ArenaBlock) + ALIGN - 1) / ALIGN * ALIGN)
 
+/* Would a block of that size be more than is allowed? */
+static bool is_beyond(const Arena *a, size_t size) { return a->limit && a->held + size + HEAD > a->limit; }
+
 static ArenaBlock *new_block(Arena *a, size_t need) {
     size_t size = a->current ? a->current->size * 2 : FIRST_BLOCK;
-    if (a->limit && a->held + size + HEAD > a->limit) size = need;
-    if (size < need) size = need;
-    if (a->limit && a->held + size + HEAD > a->limit) return NULL;
+    if (size < need || is_beyond(a, size)) size = need;
+    if (is_beyond(a, size)) return NULL;
     ArenaBlock *b = aligned_alloc(ALIGN, HEAD + size);
     if (!b) return NULL;
     *b = (ArenaBlock){NULL, size, 0};
@@ -50,9 +52,9 @@ void *arena_array(Arena *a, size_t count, size_t size, Error *e) {
     }
     size_t bytes = (count * size + ALIGN - 1) / ALIGN * ALIGN;
     void *p = a->fail_after > 0 && --a->fail_after == 0 ? NULL : take(a, bytes ? bytes : ALIGN);
-    if (!p && a->limit)
-        error_set(e, ERR_INTERNAL, "out of memory (%zu bytes held, %zu more asked, at most %zu allowed)",
-                  a->held, bytes, a->limit);
+    if (!p && is_beyond(a, bytes))
+        error_set(e, ERR_INPUT, "needs more memory than the limit of %zu MB (%zu bytes held, %zu more asked)",
+                  a->limit >> 20, a->held, bytes);
     else if (!p) error_set(e, ERR_INTERNAL, "out of memory (%zu bytes held, %zu more asked)", a->held, bytes);
     return p;
 }
