@@ -58,6 +58,14 @@ for motion in half quarter; do
     ok "a motion of $motion the rate: the same turns within half a degree" same_turns quarter out 0.5
 done
 
+# Arms that are in the skirt up to a jump, and out of it from there on.
+awk '/^Frame Time/ { print; rows = 1; next } !rows { print; next }
+    { k++; if (k <= 36) { sub(/ -73\.0000 /, " -90.0000 "); sub(/ 73\.0000 /, " 90.0000 ") } else $3 += 500; print }' \
+    "$root/motions/paper-walk.bvh" >jump.bvh
+"$KITSUKE" dress -q --no-times --no-body -g "$skirt" jump.bvh -o jump --relax-arms --format none 2>/dev/null
+is 'nothing is carried over a jump' "$(column arm_turn jump/jump/stats.csv | sed -n '37,$p' | sort -u)" 0.000000
+ok 'and all of it kept up to there' test "$(column arm_turn jump/jump/stats.csv | sed -n 36p | cut -d. -f1)" -gt 4
+
 # Chunks (a motion of more than 18 seconds) and threads.
 awk '/^Frames:/ { print "Frames:", 30 * $2; next } /^Frame Time/ { rows = 1; print; next }
     !rows { print; next } { row[n++] = $0 }

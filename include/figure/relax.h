@@ -10,24 +10,24 @@
 enum { CLOTH_PLACES = 12 };
 typedef struct { double off[ROLE_COUNT][CLOTH_PLACES]; } Cloth;
 
-/* Degrees by which an arm is turned: the whole arm about the shoulder, then forearm and hand about
-   the elbow. */
-typedef struct { double shoulder, elbow; } ArmTurn;
+/* Degrees by which an arm is turned: the whole arm about the shoulder, out to the side and forwards,
+   and forearm and hand about the elbow, out to the side. */
+typedef enum { TURN_OUT, TURN_FORWARD, TURN_ELBOW, TURNS } Turn;
+typedef struct { double angle[TURNS]; } ArmTurn;
+
+/* No turn is larger. */
+extern const double relax_most[TURNS];
 
 /* Index of an arm. */
 enum { ARM_LEFT, ARM_RIGHT, ARMS };
 
-/* No turn is larger. */
-#define SHOULDER_TURN_MOST 40.0
-#define ELBOW_TURN_MOST 30.0
-
 /* The smallest turns that leave between each arm and trunk and thighs as much room as the cloth on
-   both needs. 0 where turning outwards does not help: arms that are folded, hands that lie on the
-   belly or in the lap. A continuous function of the pose. */
+   both needs. 0 where they would not help: arms behind the back, hands between the legs. A continuous
+   function of the pose. */
 void relax_find(const Figure *figure, const Body *body, const Cloth *cloth, const Pose *pose, ArmTurn out[ARMS]);
 
-/* Turns the arms of a pose. Outwards is the shortest way to where the bone would point straight to
-   the side; a bone never goes further than that. */
+/* Turns the arms of a pose. Out is the shortest way to where the bone would point straight to the
+   side, and never further; forwards is about the line through both shoulders. */
 void relax_apply(const Figure *figure, const ArmTurn turn[ARMS], Pose *pose);
 
 #endif

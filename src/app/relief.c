@@ -79,14 +79,6 @@ static bool read_frame(Relief *r, Error *e) {
     return true;
 }
 
-static void widen(ArmTurn *most, ArmTurn need) {
-    most->shoulder = fmax(most->shoulder, need.shoulder);
-    most->elbow = fmax(most->elbow, need.elbow);
-}
-
-static ArmTurn between(ArmTurn a, ArmTurn b, double part) {
-    return (ArmTurn){a.shoulder + part * (b.shoulder - a.shoulder), a.elbow + part * (b.elbow - a.elbow)};
-}
 
 /* The frames within the window of `frame` that no jump parts from it, and that have been read. */
 static void window_of(const Relief *r, int frame, int *first, int *last) {
@@ -103,15 +95,16 @@ static void find_most(Relief *r, int frame) {
     int first, last;
     double part = r->span - (r->reach - 1);
     window_of(r, frame, &first, &last);
-    for (int arm = 0; arm < ARMS; arm++) {
-        ArmTurn *most = &moment_of(r, frame)->most[arm];
-        *most = moment_of(r, frame)->need[arm];
+    for (int i = 0; i < ARMS * TURNS; i++) {
+        int arm = i / TURNS, turn = i % TURNS;
+        double most = moment_of(r, frame)->need[arm].angle[turn];
         for (int k = first; k <= last; k++) {
-            ArmTurn need = moment_of(r, k)->need[arm];
-            if (k == frame - r->reach) need = between(moment_of(r, k + 1)->need[arm], need, part);
-            if (k == frame + r->reach) need = between(moment_of(r, k - 1)->need[arm], need, part);
-            widen(most, need);
+            double need = moment_of(r, k)->need[arm].angle[turn];
+            int inner = k == frame - r->reach ? k + 1 : k == frame + r->reach ? k - 1 : k;
+            double within = moment_of(r, inner)->need[arm].angle[turn];
+            most = fmax(most, within + part * (need - within));
         }
+        moment_of(r, frame)->most[arm].angle[turn] = most;
     }
 }
 
@@ -134,16 +127,15 @@ bool relief_at(Relief *r, int frame, ArmTurn out[ARMS], Error *e) {
     int first, last;
     if (!fill(r, frame, e)) return false;
     window_of(r, frame, &first, &last);
-    for (int arm = 0; arm < ARMS; arm++) {
-        double sum = 0, shoulder = 0, elbow = 0;
+    for (int i = 0; i < ARMS * TURNS; i++) {
+        int arm = i / TURNS, turn = i % TURNS;
+        double sum = 0, weights = 0;
         for (int k = first; k <= last; k++) {
             double w = r->weight[k < frame ? frame - k : k - frame];
-            const ArmTurn *most = &moment_of(r, k)->most[arm];
-            sum += w;
-            shoulder += w * most->shoulder;
-            elbow += w * most->elbow;
+            weights += w;
+            sum += w * moment_of(r, k)->most[arm].angle[turn];
         }
-        out[arm] = (ArmTurn){shoulder / sum, elbow / sum};
+        out[arm].angle[turn] = sum / weights;
     }
     return true;
 }

@@ -168,10 +168,10 @@ static bool relax(Take *t, int frame, int next, double part, TakeFrame *out, Err
     out->arm_turn = 0;
     if (!t->relief) return true;
     if (!relief_at(t->relief, frame, here, e) || !relief_at(t->relief, next, there, e)) return false;
-    for (int arm = 0; arm < ARMS; arm++) {
-        here[arm].shoulder += part * (there[arm].shoulder - here[arm].shoulder);
-        here[arm].elbow += part * (there[arm].elbow - here[arm].elbow);
-        out->arm_turn = fmax(out->arm_turn, fmax(here[arm].shoulder, here[arm].elbow));
+    for (int i = 0; i < ARMS * TURNS; i++) {
+        double *angle = &here[i / TURNS].angle[i % TURNS];
+        *angle += part * (there[i / TURNS].angle[i % TURNS] - *angle);
+        out->arm_turn = fmax(out->arm_turn, *angle);
     }
     relax_apply(t->figure, here, &out->pose);
     return true;

@@ -1,20 +1,26 @@
 /* Room between arms and trunk. A motion is captured on one body and played back on another: hands
    that passed the hips then go through them, and no cloth can lie where two parts overlap.
 
-   The one idea: the arm is looked at section by section. The point of a section that is nearest to a part of
-   the trunk must stand off it by what the cloth on both needs; the angle that brings it there is found by Newton's
-   method along the arc on which it moves. The largest angle of all sections is the turn. A section
-   has a say only as far as the turn leads it away from the trunk, which fades where the
-   two directions part: what fades is continuous, and hands in the lap stay there. */
+   The one idea: the arm is looked at section by section. The point of a section that is nearest to a
+   part of the trunk must stand off it by what the cloth on both needs. A turn to the side, or forwards
+   for what is in front, moves that point on an arc; where on the arc the room is enough is found by
+   bisection. The largest turns of all sections are those of the arm. A section has a say only as far as
+   turning leads it away from the trunk; that say fades, so nothing here ever jumps. */
 #include "figure/relax.h"
+
+const double relax_most[TURNS] = {40, 20, 30};
 
 /* The parts that arms are kept off. */
 static const Role TRUNK[] = {ROLE_PELVIS, ROLE_SPINE, ROLE_CHEST, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH};
 enum { TRUNK_PARTS = sizeof TRUNK / sizeof TRUNK[0], SECTIONS_PER_PART = 8, FEET = 2, STEPS = 12 };
 
-/* Cosine between the way out of the trunk and the way the arm turns: below the first a section has no
+/* How much of the way of the turn (cosine) leads away from the trunk: below the first a section has no
    say, from the second on its full say. */
 static const double ASIDE = 0.1, ALONG = 0.4;
+
+/* To the side, unless the trunk is more behind than beside: the part of the whole way out that leads forwards
+   from which this counts, and from which it counts alone. */
+static const double RIVAL_FROM = 0.5, RIVAL_TO = 0.9;
 
 /* Near the shoulder every upper arm is in the chest: at the first place (in bone lengths) a section may
    be deeper in it by so much (metres, for a figure of 1.70 m), beyond the second not at all. */
@@ -27,11 +33,17 @@ static const double AT_ELBOW = 0.4;
    the forearm go aside, because the upper arm turns about itself. */
 static const double ELBOW_STIFF = 30, ELBOW_FREE = 90;
 
-/* Space beyond the cloth itself, for a figure of 1.70 m, and the accuracy of the search (metres). */
-static const double SPARE = 0.008, CLOSE = 1e-5;
+/* Space beyond the cloth itself, metres for a figure of 1.70 m. */
+static const double SPARE = 0.008;
+
+/* Of the search: its first stride (radians; distances are good near the surface only), and its accuracy (metres
+   or radians). */
+static const double STRIDE = 0.08, CLOSE = 1e-5;
 
 /* Beyond this distance (for a figure of 1.70 m) no part is looked at. */
 static const double FAR = 0.3;
+
+static const double DEGREE = PI / 180, EVERYWHERE = 1e9;
 
 typedef struct {
     const Figure *figure;
@@ -43,8 +55,13 @@ typedef struct {
     Rigid to_part[TRUNK_PARTS];
 } Search;
 
-/* A turn of an arm, by any angle: about an axis through a point. */
-typedef struct { Vec3 pivot, axis; double most; } Hinge;
+/* ---- joints ---- */
+
+/* Shoulder or elbow: unit axes of the turns to the side and forwards, world frame. */
+typedef struct {
+    Vec3 at, out, forward;
+    double out_most; /* radians, to where the bone points straight to the side */
+} Pivot;
 
 static Role upper_arm(int arm) { return arm == ARM_LEFT ? ROLE_LEFT_UPPER_ARM : ROLE_RIGHT_UPPER_ARM; }
 
@@ -53,34 +70,40 @@ static Vec3 bone_direction(const Figure *f, const Pose *pose, Role role) {
     return mat_apply(pose->bone[role].r, bone);
 }
 
-/* The hinge at the start of a bone that turns it straight to its side. */
-static Hinge hinge_at(const Figure *f, const Pose *pose, int arm, Role role) {
+static Pivot pivot_at(const Figure *f, const Pose *pose, int arm, Role role) {
     Mat3 chest = pose->bone[ROLE_CHEST].r;
-    Vec3 aside = vec_scale(mat_column(chest, 0), arm == ARM_LEFT ? 1 : -1);
-    Vec3 bone = bone_direction(f, pose, role), axis = vec_cross(bone, aside);
-    return (Hinge){rigid_apply(pose->bone[role], f->start[role]), vec_unit_or(axis, mat_column(chest, 2)),
-                   atan2(vec_len(axis), vec_dot(bone, aside))};
+    Vec3 left = mat_column(chest, 0), side = vec_scale(left, arm == ARM_LEFT ? 1 : -1);
+    Vec3 bone = bone_direction(f, pose, role), axis = vec_cross(bone, side);
+    return (Pivot){rigid_apply(pose->bone[role], f->start[role]), vec_unit_or(axis, mat_column(chest, 2)),
+                   vec_scale(left, -1), atan2(vec_len(axis), vec_dot(bone, side))};
 }
 
-static Rigid hinge_turn(const Hinge *h, double angle) {
-    Mat3 r = mat_axis_angle(h->axis, angle);
-    return (Rigid){r, vec_sub(h->pivot, mat_apply(r, h->pivot))};
+static Rigid turn_about(Vec3 at, Vec3 axis, double angle) {
+    Mat3 r = mat_axis_angle(axis, angle);
+    return (Rigid){r, vec_sub(at, mat_apply(r, at))};
 }
 
-/* Turns a bone and those behind it, down to the hand. */
-static void turn_from(const Figure *f, Pose *pose, int arm, Role role, double degrees) {
-    Hinge h = hinge_at(f, pose, arm, role);
-    Rigid turn = hinge_turn(&h, fmin(degrees * PI / 180, h.most));
-    if (degrees <= 0) return;
+/* Turns a bone and those behind it, down to the hand, either to the side or forwards. Degrees. */
+static void turn_from(const Figure *f, Pose *pose, int arm, Role role, double out, double forward) {
+    if (out <= 0 && forward <= 0) return;
+    Pivot p = pivot_at(f, pose, arm, role);
+    Rigid turn = out > 0 ? turn_about(p.at, p.out, fmin(out * DEGREE, p.out_most))
+                         : turn_about(p.at, p.forward, forward * DEGREE);
     for (Role r = role; r <= upper_arm(arm) + 2; r++) pose->bone[r] = rigid_mul(turn, pose->bone[r]);
 }
 
-void relax_apply(const Figure *figure, const ArmTurn turn[ARMS], Pose *pose) {
-    for (int arm = 0; arm < ARMS; arm++) {
-        turn_from(figure, pose, arm, upper_arm(arm), turn[arm].shoulder);
-        turn_from(figure, pose, arm, upper_arm(arm) + 1, turn[arm].elbow);
-    }
+/* Forwards comes last, for then all others are as they would be without. */
+static void turn_arm(const Figure *f, Pose *pose, int arm, const ArmTurn *turn) {
+    turn_from(f, pose, arm, upper_arm(arm), turn->angle[TURN_OUT], 0);
+    turn_from(f, pose, arm, upper_arm(arm) + 1, turn->angle[TURN_ELBOW], 0);
+    turn_from(f, pose, arm, upper_arm(arm), 0, turn->angle[TURN_FORWARD]);
 }
+
+void relax_apply(const Figure *figure, const ArmTurn turn[ARMS], Pose *pose) {
+    for (int arm = 0; arm < ARMS; arm++) turn_arm(figure, pose, arm, &turn[arm]);
+}
+
+/* ---- gaps ---- */
 
 /* How far the cloth on a part stands off it at height y of the part's frame. */
 static double cloth_at(const Cloth *cloth, const BodyPart *part, double y) {
@@ -130,16 +153,15 @@ static double distance_of(const BodyPart *part, Vec3 p, double far, Vec3 *normal
     return first < 0 ? -vec_dist(p, foot) : vec_dist(p, foot);
 }
 
-/* What a turn of the slice by some angle leaves between it and a part of the trunk. */
+/* What there is between a slice and a part of the trunk. */
 typedef struct {
     double lack;  /* metres that are missing; negative: there is more room than needed */
-    double speed; /* metres of room that are won by a radian */
-    double lever; /* metres that the nearest point moves by a radian */
+    Vec3 point, normal; /* of the slice, nearest to the part, and the way out of the part there; world */
 } Gap;
 
-static Gap gap_after(const Search *s, const Slice *slice, const Hinge *h, double angle, int trunk) {
+/* After a turn of the slice. */
+static Gap gap_after(const Search *s, const Slice *slice, int trunk, Rigid turn) {
     const BodyPart *part = s->trunk[trunk];
-    Rigid turn = hinge_turn(h, angle);
     Vec3 centre = rigid_apply(turn, slice->centre), point = centre, local, normal;
     double size = s->figure->height / 1.7, distance = 0;
     for (int pass = 0; pass < 2; pass++) {
@@ -149,88 +171,122 @@ static Gap gap_after(const Search *s, const Slice *slice, const Hinge *h, double
         normal = mat_apply(mat_transpose(s->to_part[trunk].r), normal);
         if (pass == 0) point = rim_point(slice, turn.r, centre, vec_scale(normal, -1));
     }
-    Vec3 way = vec_cross(h->axis, vec_sub(point, h->pivot));
     double cloth = cloth_at(s->cloth, part, local.y) + slice->cloth;
     double wanted = cloth > 0 ? cloth + SPARE * size : -FAR * size;
-    return (Gap){wanted - slice->grace - distance, vec_dot(way, normal), vec_len(way)};
+    return (Gap){wanted - slice->grace - distance, point, normal};
 }
 
-/* The angle (radians, at most `most`) that this slice asks for because of this part: the root of the
-   lack, by the Illinois rule, which keeps it between two bounds. */
-static double angle_of(const Search *s, const Slice *slice, const Hinge *h, int trunk, double most) {
-    Gap at_low = gap_after(s, slice, h, 0, trunk);
-    double say = smoothstep(ASIDE, ALONG, at_low.speed / fmax(at_low.lever, 1e-9));
-    if (at_low.lack <= 0 || say <= 0) return 0;
-    double low = 0, high = most, lack_low = at_low.lack, lack_high = gap_after(s, slice, h, most, trunk).lack;
-    if (lack_high > 0) return say * most;
-    int kept = 0;
-    for (int i = 0; i < STEPS && high - low > CLOSE; i++) {
+static double lack_after(const Search *s, const Slice *slice, int trunk, Vec3 at, Vec3 axis, double angle) {
+    return gap_after(s, slice, trunk, turn_about(at, axis, angle)).lack;
+}
+
+/* The least angle (radians, at most `most`) about `axis` at which nothing is missing; `lack` is what is
+   missing without it. In strides until there is room, then by the Illinois rule: the secant between
+   two bounds, where one that stays is given less weight. */
+static double least_angle(const Search *s, const Slice *slice, int trunk, Vec3 at, Vec3 axis, double lack,
+                          double most) {
+    double low = 0, high = 0, lack_low = lack, lack_high = lack;
+    while (lack_high > 0) {
+        if (high >= most) return most;
+        low = high;
+        lack_low = lack_high;
+        high = fmin(high + STRIDE, most);
+        lack_high = lack_after(s, slice, trunk, at, axis, high);
+    }
+    for (int i = 0, stayed = 0; i < STEPS && high - low > CLOSE; i++) {
         double angle = low + (high - low) * lack_low / (lack_low - lack_high);
-        double lack = gap_after(s, slice, h, angle, trunk).lack;
+        lack = lack_after(s, slice, trunk, at, axis, angle);
+        if (fabs(lack) < CLOSE) return angle;
         if (lack > 0) {
             low = angle;
             lack_low = lack;
-            if (kept == 1) lack_high *= 0.5;
-            kept = 1;
+            if (stayed > 0) lack_high *= 0.5;
+            stayed = 1;
         } else {
             high = angle;
             lack_high = lack;
-            if (kept == -1) lack_low *= 0.5;
-            kept = -1;
+            if (stayed < 0) lack_low *= 0.5;
+            stayed = -1;
         }
-        if (fabs(lack) < CLOSE) return say * angle;
     }
-    return say * high;
+    return high;
 }
 
-/* The largest angle that the sections of a part between two places (bone lengths) ask for. */
-static double angle_of_part(const Search *s, Role role, const Hinge *h, double from, double to, double most) {
+/* ---- turns ---- */
+
+/* A way to turn an arm, and one that is preferred where it wins more room; a zero vector: none. */
+typedef struct { Vec3 at, axis, rival; } Swing;
+
+/* The angle (degrees, at most `most`) that a slice asks for because of a part. */
+static double angle_of(const Search *s, const Slice *slice, int trunk, const Swing *w, double most) {
+    Gap gap = gap_after(s, slice, trunk, rigid_identity());
+    if (gap.lack <= 0) return 0;
+    Vec3 lever = vec_sub(gap.point, w->at), gain = vec_scale(vec_cross(lever, gap.normal), 1 / vec_len(lever));
+    double own = vec_dot(gain, w->axis), rival = fmax(vec_dot(gain, w->rival), 0);
+    double say = smoothstep(ASIDE, ALONG, own);
+    if (say > 0) say *= 1 - smoothstep(RIVAL_FROM, RIVAL_TO, rival / hypot(own, rival));
+    if (say <= 0) return 0;
+    return say * least_angle(s, slice, trunk, w->at, w->axis, gap.lack, most * DEGREE) / DEGREE;
+}
+
+/* The largest that the sections of a part between two places (bone lengths) ask for. */
+static double angle_of_part(const Search *s, Role role, double from, double to, const Swing *w, double most) {
     int found = s->body->of_role[role];
     const BodyPart *part = &s->body->part[found < 0 ? 0 : found];
-    double least = 0;
-    if (found < 0) return 0;
-    for (int i = 0; i < SECTIONS_PER_PART; i++) {
+    double all = 0;
+    for (int i = 0; i < SECTIONS_PER_PART && found >= 0 && most > 0; i++) {
         double y = part->low + (part->high - part->low) * (i + 0.5) / SECTIONS_PER_PART, at = y / part->length;
         if (at < from || at > to) continue;
         Slice slice = slice_of(s, part, y);
-        for (int t = 0; t < s->ntrunk; t++) least = fmax(least, angle_of(s, &slice, h, t, most));
+        for (int t = 0; t < s->ntrunk; t++) all = fmax(all, angle_of(s, &slice, t, w, most));
     }
-    return least;
+    return all;
 }
 
-/* First the shoulder makes room for the elbow, then the elbow for the hand as far as it can, then
-   the shoulder for the hand. */
-static ArmTurn find_arm(Search *s, Pose *pose) {
-    static const double everywhere = 1e9;
+/* Upper arm and elbow, or what lies beyond the elbow. */
+static double near_angle(const Search *s, const Swing *w, double most) {
+    Role upper = upper_arm(s->arm);
+    return fmax(angle_of_part(s, upper, ARMPIT_FROM, EVERYWHERE, w, most),
+                angle_of_part(s, upper + 1, -EVERYWHERE, AT_ELBOW, w, most));
+}
+
+static double far_angle(const Search *s, const Swing *w, double most) {
+    Role upper = upper_arm(s->arm);
+    return fmax(angle_of_part(s, upper + 1, AT_ELBOW, EVERYWHERE, w, most),
+                angle_of_part(s, upper + 2, -EVERYWHERE, EVERYWHERE, w, most));
+}
+
+/* First the shoulder makes room for the elbow, to the side; then the elbow for the hand as far as it
+   can, and the shoulder does the rest; what is still missing in front is won forwards. */
+static ArmTurn find_arm(Search *s, const Pose *pose) {
     const Figure *f = s->figure;
-    Role upper = upper_arm(s->arm), forearm = upper + 1, hand = upper + 2;
-    double bend = acos(clamp(vec_dot(bone_direction(f, pose, upper), bone_direction(f, pose, forearm)), -1, 1));
-    double elbow_most = ELBOW_TURN_MOST * smoothstep(ELBOW_STIFF, ELBOW_FREE, bend * 180 / PI);
-    double most = SHOULDER_TURN_MOST * PI / 180;
+    Role upper = upper_arm(s->arm);
+    double bend = acos(clamp(vec_dot(bone_direction(f, pose, upper), bone_direction(f, pose, upper + 1)), -1, 1));
+    double elbow_most = relax_most[TURN_ELBOW] * smoothstep(ELBOW_STIFF, ELBOW_FREE, bend / DEGREE);
     Pose turned = *pose;
-    ArmTurn out = {0, 0};
     s->pose = &turned;
 
-    Hinge shoulder = hinge_at(f, pose, s->arm, upper);
-    double first = fmax(angle_of_part(s, upper, &shoulder, ARMPIT_FROM, everywhere, most),
-                        angle_of_part(s, forearm, &shoulder, -everywhere, AT_ELBOW, most));
-    turn_from(f, &turned, s->arm, upper, first * 180 / PI);
+    Pivot shoulder = pivot_at(f, pose, s->arm, upper);
+    Swing out = {shoulder.at, shoulder.out, shoulder.forward}, forward = {shoulder.at, shoulder.forward, {0, 0, 0}};
+    double near = near_angle(s, &out, relax_most[TURN_OUT]);
+    turn_from(f, &turned, s->arm, upper, near, 0);
 
-    Hinge elbow = hinge_at(f, &turned, s->arm, forearm);
-    double second = fmax(angle_of_part(s, forearm, &elbow, AT_ELBOW, everywhere, elbow_most * PI / 180),
-                         angle_of_part(s, hand, &elbow, -everywhere, everywhere, elbow_most * PI / 180));
-    out.elbow = second * 180 / PI;
-    turn_from(f, &turned, s->arm, forearm, out.elbow);
+    Pivot elbow = pivot_at(f, &turned, s->arm, upper + 1);
+    Swing aside = {elbow.at, elbow.out, elbow.forward};
+    double at_elbow = far_angle(s, &aside, elbow_most);
+    turn_from(f, &turned, s->arm, upper + 1, at_elbow, 0);
 
-    double third = fmax(angle_of_part(s, forearm, &shoulder, AT_ELBOW, everywhere, most - first),
-                        angle_of_part(s, hand, &shoulder, -everywhere, everywhere, most - first));
-    out.shoulder = (first + third) * 180 / PI;
-    return out;
+    double far = far_angle(s, &out, relax_most[TURN_OUT] - near);
+    ArmTurn turn = {{near + far, 0, at_elbow}};
+    turned = *pose;
+    turn_arm(f, &turned, s->arm, &turn);
+    turn.angle[TURN_FORWARD] = fmax(near_angle(s, &forward, relax_most[TURN_FORWARD]),
+                                    far_angle(s, &forward, relax_most[TURN_FORWARD]));
+    return turn;
 }
 
 void relax_find(const Figure *figure, const Body *body, const Cloth *cloth, const Pose *pose, ArmTurn out[ARMS]) {
     Search s = {.figure = figure, .body = body, .cloth = cloth};
-    Pose scratch = *pose;
     for (int t = 0; t < TRUNK_PARTS; t++) {
         if (body->of_role[TRUNK[t]] < 0) continue;
         const BodyPart *part = s.trunk[s.ntrunk] = &body->part[body->of_role[TRUNK[t]]];
@@ -238,6 +294,6 @@ void relax_find(const Figure *figure, const Body *body, const Cloth *cloth, cons
     }
     for (int arm = 0; arm < ARMS; arm++) {
         s.arm = arm;
-        out[arm] = find_arm(&s, &scratch);
+        out[arm] = find_arm(&s, pose);
     }
 }

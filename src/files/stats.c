@@ -56,7 +56,7 @@ static const Column frame_columns[] = {
     {"push_s", "s", KIND_SECONDS, AT(stats.push_s), "local deformation"},
     {"mesh_s", "s", KIND_SECONDS, AT(stats.mesh_s), "making the mesh"},
     {"write_s", "s", KIND_SECONDS, AT(write_s), "writing it"},
-    {"arm_turn", "deg", KIND_REAL, AT(arm_turn), "how far `--relax-arms` turned an arm outwards, at most 40"},
+    {"arm_turn", "deg", KIND_REAL, AT(arm_turn), "the most by which `--relax-arms` turned a joint of an arm, up to 40"},
 };
 #undef AT
 

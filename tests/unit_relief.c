@@ -1,0 +1,94 @@
+/* The turns of arms over a motion: never less than a frame needs, smooth, and of the frame alone. */
+#include "app/relief.h"
+
+#include "rig.h"
+#include "tap.h"
+
+enum { FRAMES_MOST = 200 };
+
+typedef struct {
+    Rig rig;
+    Body body;
+    Cloth cloth;
+    int count;
+    double need[FRAMES_MOST][ARMS * TURNS], turn[FRAMES_MOST][ARMS * TURNS];
+} Scene;
+
+static Relief *open_relief(Scene *s) {
+    Relief *r;
+    Error e = {0};
+    if (relief_open(&s->rig.motion, &s->rig.figure, &s->body, &s->cloth, false, &s->rig.arena, &r, &e)) return r;
+    printf("# %s\n", e.text);
+    exit(1);
+}
+
+static void copy(const ArmTurn from[ARMS], double to[ARMS * TURNS]) {
+    for (int i = 0; i < ARMS * TURNS; i++) to[i] = from[i / TURNS].angle[i % TURNS];
+}
+
+/* A walk in cloth so wide that the swinging arms touch it again and again. */
+static void open_scene(Scene *s) {
+    Error e = {0};
+    if (!rig_open(&s->rig, "motions/paper-walk.bvh", NULL) ||
+        !body_fit(body_default(), &s->rig.figure, 16, &s->rig.arena, &s->body, &e))
+        exit(1);
+    for (int r = 0; r < ROLE_COUNT; r++)
+        for (int k = 0; k < CLOTH_PLACES; k++) s->cloth.off[r][k] = r == ROLE_LEFT_THIGH || r == ROLE_PELVIS ? 0.12 : 0;
+    Relief *r = open_relief(s);
+    s->count = s->rig.motion.nframes;
+    for (int f = 0; f < s->count && f < FRAMES_MOST; f++) {
+        ArmTurn turn[ARMS];
+        Pose pose = rig_pose(&s->rig, f);
+        relax_find(&s->rig.figure, &s->body, &s->cloth, &pose, turn);
+        copy(turn, s->need[f]);
+        if (!relief_at(r, f, turn, &e)) exit(1);
+        copy(turn, s->turn[f]);
+    }
+    relief_close(r);
+}
+
+static void test_enough(const Scene *s) {
+    double least = 90, most = 0, jerk = 0, rough = 0;
+    for (int f = 0; f < s->count; f++)
+        for (int i = 0; i < ARMS * TURNS; i++) {
+            least = fmin(least, s->turn[f][i] - s->need[f][i]);
+            most = fmax(most, s->turn[f][i]);
+            if (f < 2) continue;
+            jerk = fmax(jerk, fabs(s->turn[f][i] - 2 * s->turn[f - 1][i] + s->turn[f - 2][i]));
+            rough = fmax(rough, fabs(s->need[f][i] - 2 * s->need[f - 1][i] + s->need[f - 2][i]));
+        }
+    OK(most > 3 && least > -1e-9, "of %.1f degrees at most no frame gets less than it needs", most);
+    OK(jerk < 0.1 && jerk < 0.2 * rough, "second differences: %.3f degrees, of the bare needs %.3f", jerk, rough);
+}
+
+/* Largest difference to the turns of all frames, asked for from `first` on with that step. */
+static double difference(Scene *s, int first, int step) {
+    Relief *r = open_relief(s);
+    Error e = {0};
+    double most = 0;
+    for (int f = first; f < s->count; f += step) {
+        ArmTurn turn[ARMS];
+        double now[ARMS * TURNS];
+        if (!relief_at(r, f, turn, &e)) return 1;
+        copy(turn, now);
+        for (int i = 0; i < ARMS * TURNS; i++) most = fmax(most, fabs(now[i] - s->turn[f][i]));
+    }
+    relief_close(r);
+    return most;
+}
+
+static void test_alone(Scene *s) {
+    double most = 0;
+    for (int first = 0; first < s->count; first += 7)
+        for (int step = 1; step < 72; step = 2 * step + 1) most = fmax(most, difference(s, first, step));
+    OK(most == 0, "the turn of a frame is the same to the last bit whatever else is asked for");
+}
+
+int main(void) {
+    static Scene scene;
+    open_scene(&scene);
+    test_enough(&scene);
+    test_alone(&scene);
+    rig_close(&scene.rig);
+    return tap_done();
+}
