@@ -33,21 +33,34 @@ static char *put_whole(char *out, uint32_t n) {
 
 char *decimal_put_int(char *out, int n) { return put_whole(out, (uint32_t)n); }
 
+/* What happens rarely stands apart, so that the rest needs no room on the stack. */
+__attribute__((noinline)) static char *put_slowly(char *out, double x) {
+    return out + snprintf(out, DECIMAL_MAX, "%.6f", x);
+}
+
+/* The last six digits of k, a point before them. */
+static inline char *put_millionths(char *out, uint32_t k) {
+    uint32_t high = k / 10000, middle = k / 100 % 100, low = k % 100;
+    *out = '.';
+    memcpy(out + 1, PAIRS + 2 * high, 2);
+    memcpy(out + 3, PAIRS + 2 * middle, 2);
+    memcpy(out + 5, PAIRS + 2 * low, 2);
+    return out + 7;
+}
+
 char *decimal_put(char *out, double x) {
     double product = fabs(x) * 1e6;
-    if (!(product < 1e15)) return out + snprintf(out, DECIMAL_MAX, "%.6f", x);
+    if (!(product < 1e15)) return put_slowly(out, x);
     int64_t k = (int64_t)product;
     double fraction = product - (double)k;
-    if (fabs(fraction - 0.5) <= product * 0x1p-52) return out + snprintf(out, DECIMAL_MAX, "%.6f", x);
+    if (fabs(fraction - 0.5) <= product * 0x1p-52) return put_slowly(out, x);
     k += fraction > 0.5;
-    uint32_t whole = (uint32_t)(k / 1000000), millionths = (uint32_t)(k % 1000000);
     *out = '-';
     out += signbit(x) != 0;
-    if (whole < 10) *out++ = (char)('0' + whole);
-    else out = put_whole(out, whole);
-    *out++ = '.';
-    memcpy(out, PAIRS + 2 * (millionths / 10000), 2);
-    memcpy(out + 2, PAIRS + 2 * (millionths / 100 % 100), 2);
-    memcpy(out + 4, PAIRS + 2 * (millionths % 100), 2);
-    return out + 6;
+    if (k < 10000000) {
+        uint32_t small = (uint32_t)k, whole = small / 1000000;
+        *out = (char)('0' + whole);
+        return put_millionths(out + 1, small - 1000000 * whole);
+    }
+    return put_millionths(put_whole(out, (uint32_t)(k / 1000000)), (uint32_t)(k % 1000000));
 }
