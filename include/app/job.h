@@ -24,6 +24,7 @@ typedef struct {
     const Input *input;
     RecordKey key;           /* of what is dressed */
     int workers;             /* how many chunks may be under way at the same time */
+    Press *press;            /* that writes the meshes */
 } JobOrder;
 
 typedef struct Job Job;

@@ -3,16 +3,14 @@
 #define APP_LANE_H
 
 #include "app/chunks.h"
+#include "app/press.h"
 #include "app/wearer.h"
 #include "dress/room.h"
-#include "files/obj.h"
-#include "files/stats.h"
 
 /* Clear with {0} once, lane_free at the end; in between it serves any motion. */
 typedef struct {
     Arena arena;
-    ObjWriter obj;
-    DrcWriter drc;
+    Pen pen;
     Wearer wearer;       /* motion, figure and body are the job's, the pose is its own */
     Dresser **dresser;   /* one for each garment */
     Cloth cloth;         /* the room that these need */
@@ -24,6 +22,7 @@ typedef struct {
     int nrows, frames, residual_frames;
     long long body_bytes, *bytes; /* written for the body, for each garment */
     double *seconds;       /* for each garment */
+    double helped;         /* seconds that other threads spent on writing its files */
     Jumps jumps;
     Error error;
 } ChunkResult;
@@ -34,6 +33,7 @@ typedef struct {
     const Wearer *wearer;
     const char *folder;    /* where the meshes go */
     double unit;           /* output units per metre */
+    Press *press;          /* that writes them */
 } LaneWork;
 
 /* Called after each frame that was written. */

@@ -1,10 +1,10 @@
 /* Many motions on many threads, and nothing that depends on which of them is done first.
 
    A worker that is free goes on with the motion it is at, else opens the next one, else helps with
-   the chunks of a motion that another has opened; so many short motions and one long one both
-   keep every worker busy. What a motion has to say is kept as text until all motions before it
-   have spoken, and the summary's rows are written at the end from an array in the order of the inputs;
-   so a run on sixteen threads reads like a run on one. */
+   the chunks of a motion that another has opened, else with writing (see press.c); so many short
+   motions and one long one both keep every worker busy. What a motion has to say is kept as text
+   until all motions before it have spoken, and the summary's rows are written at the end from an
+   array in the order of the inputs; so a run on sixteen threads reads like a run on one. */
 #include "app/batch.h"
 
 #include <pthread.h>
@@ -58,6 +58,7 @@ typedef struct {
     int nworkers;
     pthread_mutex_t lock; /* guards what follows, the states of slots, and stderr */
     pthread_cond_t change;
+    Press press;
     int next;             /* item that nobody has opened yet */
     Progress progress;
     int spoken;           /* items whose messages are out */
@@ -150,7 +151,8 @@ static bool open_job(Batch *b, Worker *w, Slot *slot) {
     const Input *input = &b->input[slot->item];
     Item *item = &b->item[slot->item];
     JobResult *result = &item->result;
-    JobOrder order = {.wardrobe = b->wardrobe, .input = input, .key = {.options = b->options}, .workers = b->nworkers};
+    JobOrder order = {.wardrobe = b->wardrobe, .input = input, .key = {.options = b->options}, .workers = b->nworkers,
+                      .press = &b->press};
     slot->job = NULL;
     slot->said = open_memstream(&item->said, &slot->size);
     slot->notes = ARENA_NEW(&slot->arena, Notes, 1, &result->error);
@@ -191,7 +193,9 @@ static Slot *next_task(Batch *b, Worker *w, int *chunk) {
             if (b->slot[i].state == SLOT_OPEN && (*chunk = job_take(b->slot[i].job)) >= 0) found = &b->slot[i];
         }
         if (found || !any) break;
-        pthread_cond_wait(&b->change, &b->lock);
+        b->press.helpers++;
+        if (!press_help(&b->press, &w->lane.pen)) pthread_cond_wait(&b->change, &b->lock);
+        b->press.helpers--;
     }
     pthread_mutex_unlock(&b->lock);
     return w->slot = found;
@@ -329,7 +333,9 @@ static bool prepare(Batch *b, Arena *arena, Error *e) {
     b->worker = ARENA_NEW(arena, Worker, b->nworkers, e);
     b->slot = ARENA_NEW(arena, Slot, b->nworkers, e);
     SummaryRow *rows = ARENA_NEW(arena, SummaryRow, (size_t)b->count * (size_t)b->wardrobe->ngarments, e);
-    if (!b->item || !b->worker || !b->slot || !rows || !record_options(s, &b->options, e)) return false;
+    if (!b->item || !b->worker || !b->slot || !rows || !record_options(s, &b->options, e) ||
+        !press_open(&b->press, b->nworkers, &b->lock, &b->change, arena, e))
+        return false;
     for (int i = 0; i < b->count; i++) b->item[i].result.row = rows + (size_t)i * (size_t)b->wardrobe->ngarments;
     for (int i = 0; i < b->nworkers; i++)
         b->worker[i].lane.arena.limit = b->slot[i].arena.limit = (size_t)s->max_memory << 20;
@@ -342,6 +348,7 @@ static void clean_up(Batch *b) {
         lane_free(&b->worker[i].lane);
         arena_free(&b->slot[i].arena);
     }
+    press_close(&b->press);
     for (int i = 0; i < b->count && b->item; i++) free(b->item[i].rows);
     pthread_cond_destroy(&b->change);
     pthread_mutex_destroy(&b->lock);

@@ -96,6 +96,7 @@ bool job_open(const JobOrder *order, Lane *lane, Notes *notes, Arena *arena, Job
     if (!j) return false;
     *j = (Job){.order = *order, .settings = order->wardrobe->settings, .arena = arena, .notes = notes, .result = out};
     j->work = (LaneWork){.wardrobe = order->wardrobe, .wearer = &j->wearer, .folder = j->folder};
+    j->work.press = order->press;
     j->work.unit = j->settings->output_unit > 0 ? 1 / j->settings->output_unit : 1;
     pthread_mutex_init(&j->guard, NULL);
     j->has_failed = !open_motion(j, lane, &out->error) || !open_output(j, &out->error);
@@ -155,6 +156,7 @@ static void deliver(Job *j) {
 static void clear(ChunkResult *r, int ngarments) {
     r->nrows = r->frames = r->residual_frames = 0;
     r->body_bytes = 0;
+    r->helped = 0;
     r->jumps = (Jumps){0};
     r->error = (Error){0};
     for (int g = 0; g < ngarments; g++) {
@@ -178,7 +180,7 @@ void job_chunk(Job *j, int chunk, Lane *lane, const LaneWatch *watch) {
     Berth *b = &j->berth[chunk % j->nberths];
     dress(j, chunk, lane, watch, &b->result);
     pthread_mutex_lock(&j->guard);
-    j->whole += lap(&since);
+    j->whole += lap(&since) + b->result.helped;
     j->finished++;
     j->has_failed = j->has_failed || b->result.error.kind != ERR_NONE;
     b->is_done = true;

@@ -1,6 +1,6 @@
 /* The frames of a chunk, each on its way from a row of numbers to files:
 
-       row -> pose -> body mesh -> each garment -> OBJ, Draco, a row of statistics
+       row -> pose -> body mesh -> each garment -> the press (OBJ, Draco), a row of statistics
 
    Read lane_run from its end upwards. Everything that a frame needs is taken before the first
    one; memory does not grow with the number of frames. A chunk begins with fresh dressers, for then it
@@ -16,6 +16,7 @@ typedef struct {
     const Settings *settings;
     const Chunk *chunk;
     ChunkResult *result;
+    PressTally tally;
 } Run;
 
 /* Seconds since *since, which moves on to now. */
@@ -27,8 +28,7 @@ static double lap(double *since) {
 
 void lane_free(Lane *lane) {
     arena_free(&lane->arena);
-    obj_writer_free(&lane->obj);
-    drc_writer_free(&lane->drc);
+    pen_free(&lane->pen);
 }
 
 bool lane_open(Lane *lane, const LaneWork *work, Error *e) {
@@ -36,7 +36,6 @@ bool lane_open(Lane *lane, const LaneWork *work, Error *e) {
     DressOptions options = {.split = (SplitRule)s->split, .detail = s->detail, .depth = s->depth};
     options.method = (Method)s->method;
     options.fixed_topology = s->fixed != 0;
-    lane->obj.metre = work->unit;
     arena_reset(&lane->arena);
     return wearer_share(work->wearer, work->unit, &lane->arena, &lane->wearer, e) &&
            wearer_put_on(&lane->wearer, work->wardrobe, &options, &lane->arena, &lane->dresser, e);
@@ -50,60 +49,39 @@ static bool relax_arms(Lane *lane, const Wardrobe *wardrobe, Take *take, Error *
     return take_relax(take, &w->body, &lane->cloth, &lane->arena, e);
 }
 
-/* The mesh is in output units already: what was tested is what is written. */
-static bool write_mesh(Run *r, const char *name, int frame, const Mesh *mesh, long long *bytes, Error *e) {
-    char path[OUTPUT_PATH_MAX + 128];
-    const Settings *s = r->settings;
-    unsigned formats = s->formats ? s->formats : FORMAT_OBJ | FORMAT_DRC;
-    long long n = 0;
-    if (formats & FORMAT_OBJ) {
-        snprintf(path, sizeof path, "%s/%s.%04d.obj", r->work->folder, name, frame);
-        if (!obj_write(&r->lane->obj, path, mesh, 1, &n, e)) return false;
-        *bytes += n;
-    }
-    if (formats & FORMAT_DRC) {
-        snprintf(path, sizeof path, "%s/%s.%04d.drc", r->work->folder, name, frame);
-        if (!drc_write(&r->lane->drc, path, mesh, 1, &s->drc, &n, e)) return false;
-        *bytes += n;
-    }
-    return true;
+/* Hands a mesh to the press; rows share the time of writing it. */
+static bool put(Run *r, const char *name, int frame, const Mesh *mesh, long long *bytes, StatsRow *row, int nrows,
+                Error *e) {
+    PressOrder order = {r->settings, r->work->folder, name, frame, r->work->unit, bytes, row, nrows, &r->tally};
+    return r->settings->formats == FORMAT_NONE || press_put(r->work->press, &r->lane->pen, &order, mesh, e);
 }
 
-static bool write_body(Run *r, int frame, Error *e) {
-    if (r->settings->no_body) return true;
-    Mesh mesh = wearer_skin(&r->lane->wearer);
-    return write_mesh(r, "body", frame, &mesh, &r->result->body_bytes, e);
-}
-
-/* pose_s and write_s of the row hold this garment's share of the body. */
 static bool dress_garment(Run *r, int g, const TakeFrame *frame, StatsRow *row, Error *e) {
     Mesh mesh;
-    double start = clock_seconds(), since;
-    row->garment = r->work->wardrobe->garment[g]->name;
+    double since = clock_seconds();
     dresser_frame(r->lane->dresser[g], &r->lane->wearer.posed, frame->dt, frame->restart, &mesh, &row->stats);
-    since = clock_seconds();
-    if (!write_mesh(r, row->garment, frame->number, &mesh, &r->result->bytes[g], e)) return false;
-    row->write_s += lap(&since);
-    r->result->seconds[g] += since - start;
-    return true;
+    r->result->seconds[g] += lap(&since);
+    return put(r, row->garment, frame->number, &mesh, &r->result->bytes[g], row, 1, e);
 }
 
+/* The rows share the time for the body. */
 static bool dress_frame(Run *r, const TakeFrame *frame, double since, Error *e) {
     int n = r->work->wardrobe->ngarments;
     bool residual = false;
+    StatsRow *row = &r->result->row[r->result->nrows];
     body_frame_pose(&r->lane->wearer.posed, &frame->pose);
     double pose_s = lap(&since) / n;
-    if (!write_body(r, frame->number, e)) return false;
-    double body_s = lap(&since) / n;
+    for (int g = 0; g < n; g++)
+        row[g] = (StatsRow){.frame = frame->number, .time = frame->time, .split = (SplitRule)r->settings->split,
+                            .method = (Method)r->settings->method, .garment = r->work->wardrobe->garment[g]->name,
+                            .pose_s = pose_s, .arm_turn = frame->arm_turn};
+    Mesh body = wearer_skin(&r->lane->wearer);
+    if (!r->settings->no_body && !put(r, "body", frame->number, &body, &r->result->body_bytes, row, n, e)) return false;
     for (int g = 0; g < n; g++) {
-        StatsRow *row = &r->result->row[r->result->nrows];
-        *row = (StatsRow){.frame = frame->number, .time = frame->time, .split = (SplitRule)r->settings->split,
-                          .pose_s = pose_s, .write_s = body_s, .arm_turn = frame->arm_turn};
-        row->method = (Method)r->settings->method;
-        if (!dress_garment(r, g, frame, row, e)) return false;
-        r->result->nrows++;
-        residual = residual || stats_has_residual(&row->stats);
+        if (!dress_garment(r, g, frame, &row[g], e)) return false;
+        residual = residual || stats_has_residual(&row[g].stats);
     }
+    r->result->nrows += n;
     r->result->frames++;
     r->result->residual_frames += residual;
     return true;
@@ -135,6 +113,13 @@ static bool dress_frames(Run *r, Take *take, const LaneWatch *watch, Error *e) {
     return e->kind == ERR_NONE;
 }
 
+/* What the press has spent is known only now. */
+static void count_writing(Run *r) {
+    int n = r->work->wardrobe->ngarments;
+    for (int i = 0; i < r->result->nrows; i++) r->result->seconds[i % n] += r->result->row[i].write_s;
+    r->result->helped = r->tally.helped;
+}
+
 void lane_run(Lane *lane, const LaneWork *work, const Chunk *chunk, const LaneWatch *watch, ChunkResult *out) {
     const Wearer *w = &lane->wearer;
     const Settings *s = work->wardrobe->settings;
@@ -144,6 +129,8 @@ void lane_run(Lane *lane, const LaneWork *work, const Chunk *chunk, const LaneWa
     if (take_open(&w->motion, &w->figure, &chunk->span, s->rate, &lane->arena, &take, e) &&
         (!s->relax_arms || relax_arms(lane, work->wardrobe, take, e))) {
         dress_frames(&r, take, watch, e);
+        press_finish(work->press, &lane->pen, &r.tally, e);
+        count_writing(&r);
         out->jumps = take_jumps(take);
     }
     take_close(take);

@@ -1,0 +1,181 @@
+/* A frame's cloth follows from that of the frame before, so one motion is dressed by one thread at a
+   time; but its files can be written by anyone, in any order. As long as a thread is idle, meshes
+   are copied to a ring, and it takes them from there. Where all have a motion of their own the ring
+   stays empty and nothing is copied. Where the ring is full the dressing thread writes as well. */
+#include "app/press.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+
+enum { PLACES = 4 }; /* for each thread that may be idle: enough to even out quick and slow frames */
+
+struct PressSheet {
+    PressOrder order;
+    Mesh mesh;      /* its arrays are in `memory` */
+    char *memory;   /* malloc */
+    size_t capacity;
+    bool is_taken;
+};
+
+void pen_free(Pen *pen) {
+    obj_writer_free(&pen->obj);
+    drc_writer_free(&pen->drc);
+}
+
+bool press_open(Press *p, int threads, pthread_mutex_t *lock, pthread_cond_t *change, Arena *arena, Error *e) {
+    *p = (Press){.lock = lock, .change = change, .nsheets = threads > 1 ? PLACES * threads : 0};
+    p->sheet = ARENA_NEW(arena, PressSheet, p->nsheets, e);
+    return p->sheet != NULL;
+}
+
+void press_close(Press *p) {
+    for (int i = 0; i < p->nsheets && p->sheet; i++) free(p->sheet[i].memory);
+}
+
+/* --- writing --- */
+
+/* The mesh is in output units already: what was tested is what is written. */
+static bool write_mesh(Pen *pen, const PressOrder *o, const Mesh *mesh, long long *bytes, Error *e) {
+    char path[OUTPUT_PATH_MAX + 128];
+    unsigned formats = o->settings->formats ? o->settings->formats : FORMAT_OBJ | FORMAT_DRC;
+    long long n = 0;
+    *bytes = 0;
+    if (formats & FORMAT_OBJ) {
+        snprintf(path, sizeof path, "%s/%s.%04d.obj", o->folder, o->name, o->frame);
+        pen->obj.metre = o->metre;
+        if (!obj_write(&pen->obj, path, mesh, 1, &n, e)) return false;
+        *bytes += n;
+    }
+    if (formats & FORMAT_DRC) {
+        snprintf(path, sizeof path, "%s/%s.%04d.drc", o->folder, o->name, o->frame);
+        if (!drc_write(&pen->drc, path, mesh, 1, &o->settings->drc, &n, e)) return false;
+        *bytes += n;
+    }
+    return true;
+}
+
+static void count_order(const PressOrder *o, long long bytes, double seconds) {
+    *o->bytes += bytes;
+    for (int i = 0; i < o->nrows; i++) o->row[i].write_s += seconds / o->nrows;
+}
+
+/* Writes a mesh that is in the ring. Called and left with the lock held. */
+static void write_sheet(Press *p, Pen *pen, PressSheet *s, bool as_helper) {
+    long long bytes;
+    Error error = {0};
+    s->is_taken = true;
+    pthread_mutex_unlock(p->lock);
+    double start = clock_seconds();
+    bool good = write_mesh(pen, &s->order, &s->mesh, &bytes, &error);
+    double seconds = clock_seconds() - start;
+    pthread_mutex_lock(p->lock);
+    PressTally *tally = s->order.tally;
+    if (!good && tally->error.kind == ERR_NONE) tally->error = error;
+    count_order(&s->order, good ? bytes : 0, seconds);
+    if (as_helper) tally->helped += seconds;
+    tally->waiting--;
+    s->order.tally = NULL;
+    while (p->count > 0 && !p->sheet[p->first].order.tally) { /* places become free in order */
+        p->first = (p->first + 1) % p->nsheets;
+        p->count--;
+    }
+    pthread_cond_broadcast(p->change);
+}
+
+/* The first mesh in the ring that nobody has taken, of a tally if it is not NULL. */
+static PressSheet *next_sheet(Press *p, const PressTally *tally) {
+    for (int i = 0; i < p->count; i++) {
+        PressSheet *s = &p->sheet[(p->first + i) % p->nsheets];
+        if (s->order.tally && !s->is_taken && (!tally || s->order.tally == tally)) return s;
+    }
+    return NULL;
+}
+
+bool press_help(Press *p, Pen *pen) {
+    PressSheet *s = next_sheet(p, NULL);
+    if (s) write_sheet(p, pen, s, true);
+    return s != NULL;
+}
+
+/* --- the ring --- */
+
+/* Copies n items to *at, which moves on. NULL stays NULL. */
+static void *copy(char **at, const void *items, size_t n, size_t size) {
+    char *to = *at;
+    if (!items) return NULL;
+    memcpy(to, items, n * size);
+    *at += (n * size + 15) / 16 * 16;
+    return to;
+}
+
+/* False where there is no memory: then the mesh is written at once, without a copy. */
+static bool copy_mesh(PressSheet *s, const Mesh *m) {
+    size_t v = (size_t)m->nvertices, t = (size_t)m->ntriangles, g = (size_t)m->ngroups;
+    size_t need = v * (2 * sizeof(Vec3) + 2 * sizeof(double)) + t * sizeof(Triangle) + g * sizeof(MeshGroup) + 6 * 16;
+    if (need > s->capacity) {
+        free(s->memory);
+        s->memory = malloc(need + need / 4);
+        s->capacity = s->memory ? need + need / 4 : 0;
+        if (!s->memory) return false;
+    }
+    char *at = s->memory;
+    s->mesh = *m;
+    s->mesh.position = copy(&at, m->position, v, sizeof(Vec3));
+    s->mesh.normal = copy(&at, m->normal, v, sizeof(Vec3));
+    s->mesh.u = copy(&at, m->u, v, sizeof(double));
+    s->mesh.w = copy(&at, m->w, v, sizeof(double));
+    s->mesh.triangle = copy(&at, m->triangle, t, sizeof(Triangle));
+    s->mesh.group = copy(&at, m->group, g, sizeof(MeshGroup));
+    s->mesh.edge = NULL;
+    return true;
+}
+
+/* With the lock held: is somebody free, and a place for it? */
+static bool hand_over(Press *p, const PressOrder *order, const Mesh *mesh) {
+    if (p->count >= PLACES * p->helpers) return false;
+    PressSheet *s = &p->sheet[(p->first + p->count) % p->nsheets];
+    if (!copy_mesh(s, mesh)) return false;
+    s->order = *order;
+    s->is_taken = false;
+    p->count++;
+    order->tally->waiting++;
+    pthread_cond_broadcast(p->change);
+    return true;
+}
+
+static bool take_error(const PressTally *tally, Error *e) {
+    if (tally->error.kind == ERR_NONE) return true;
+    if (e->kind == ERR_NONE) *e = tally->error;
+    return false;
+}
+
+bool press_put(Press *p, Pen *pen, const PressOrder *order, const Mesh *mesh, Error *e) {
+    if (p->nsheets) {
+        pthread_mutex_lock(p->lock);
+        bool good = take_error(order->tally, e), done = good && hand_over(p, order, mesh);
+        pthread_mutex_unlock(p->lock);
+        if (done || !good) return good;
+    }
+    long long bytes;
+    double start = clock_seconds();
+    if (!write_mesh(pen, order, mesh, &bytes, e)) return false;
+    double seconds = clock_seconds() - start;
+    if (p->nsheets) pthread_mutex_lock(p->lock);
+    count_order(order, bytes, seconds);
+    if (p->nsheets) pthread_mutex_unlock(p->lock);
+    return true;
+}
+
+void press_finish(Press *p, Pen *pen, PressTally *tally, Error *e) {
+    if (!p->nsheets) return;
+    pthread_mutex_lock(p->lock);
+    while (tally->waiting > 0) {
+        PressSheet *s = next_sheet(p, tally);
+        if (s) write_sheet(p, pen, s, false);
+        else pthread_cond_wait(p->change, p->lock);
+    }
+    take_error(tally, e);
+    pthread_mutex_unlock(p->lock);
+}
