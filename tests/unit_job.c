@@ -12,6 +12,7 @@
 
 static Wardrobe wardrobe;
 static Settings settings;
+static Press press; /* without places: everybody writes his own */
 static Input input = {.path = "motions/paper-walk.bvh", .name = "walk"};
 
 static void ignore(void *context) { (void)context; }
@@ -23,7 +24,7 @@ static Error run(long fail, bool in_lane, int *frames) {
     LaneWatch watch = {ignore, NULL};
     SummaryRow rows[2] = {{0}};
     JobResult result = {.row = rows};
-    JobOrder order = {.wardrobe = &wardrobe, .input = &input, .key = {1, 2}, .workers = 1};
+    JobOrder order = {.wardrobe = &wardrobe, .input = &input, .key = {1, 2}, .workers = 1, .press = &press};
     Notes notes = {0};
     Job *job = NULL;
     if (job_open(&order, &lane, &notes, &arena, &result, &job))
@@ -82,7 +83,8 @@ static void test_every_allocation(bool in_lane) {
 typedef struct { JobOrder order; Lane lane; Arena arena; Notes notes; JobResult result; Job *job; } Opened;
 
 static bool open_one(Opened *o, const Input *of, SummaryRow *rows) {
-    *o = (Opened){.order = {.wardrobe = &wardrobe, .input = of, .key = {1, 2}, .workers = 2}, .result = {.row = rows}};
+    *o = (Opened){.order = {.wardrobe = &wardrobe, .input = of, .key = {1, 2}, .workers = 2, .press = &press},
+                  .result = {.row = rows}};
     return job_open(&o->order, &o->lane, &o->notes, &o->arena, &o->result, &o->job);
 }
 

@@ -45,7 +45,8 @@ static void dress(const Wardrobe *w, const char *motion, Arena *arena) {
     SummaryRow row = {0};
     JobResult result = {.row = &row};
     Input input = {.path = motion, .name = "motion"};
-    JobOrder order = {.wardrobe = w, .input = &input, .key = {1, 2}, .workers = 1};
+    Press press = {0};
+    JobOrder order = {.wardrobe = w, .input = &input, .key = {1, 2}, .workers = 1, .press = &press};
     Job *job = NULL;
     notes.count = 0;
     remove(written(RECORD_NAME));
