@@ -12,6 +12,7 @@ typedef struct {
     const unsigned *own;  /* per vertex: parts (bits 1 << role) that must not show there */
     Crossing *found;
     int capacity;
+    Box *block;           /* private: boxes round the vertices */
     int *bad, nbad;       /* vertices that must not be where they are, in the order found */
     bool inside_known;    /* tester_inside has counted since the mesh was built */
 } Tester;

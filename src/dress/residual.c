@@ -2,13 +2,16 @@
    vertices inside it, part by part, so that what is found can be named. */
 #include "dress/residual.h"
 
-enum { FOUND_MAX = 1 << 14 };
+#include "geometry/boxtree.h"
+
+enum { FOUND_MAX = 1 << 14, BLOCK = 16 /* vertices that share a box */ };
 
 bool tester_reserve(Tester *t, int edges, int triangles, Arena *arena, Error *e) {
     t->capacity = FOUND_MAX;
     t->found = ARENA_NEW(arena, Crossing, t->capacity, e);
     t->bad = ARENA_NEW(arena, int, 3 * t->capacity, e);
-    return t->found && t->bad && crossing_reserve(&t->edges, edges, arena, e) &&
+    t->block = ARENA_NEW(arena, Box, edges / BLOCK + 1, e); /* a mesh has more edges than vertices */
+    return t->found && t->bad && t->block && crossing_reserve(&t->edges, edges, arena, e) &&
            crossing_reserve(&t->triangles, triangles, arena, e);
 }
 
@@ -54,13 +57,27 @@ void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *ow
     }
 }
 
+/* Boxes in metres round vertices that follow each other, and so lie near each other. */
+static void box_vertices(Tester *t, const Vec3 *position, int n, double to_metres) {
+    for (int v = 0; v < n; v++) {
+        Box *box = &t->block[v / BLOCK];
+        if (v % BLOCK == 0) *box = box_empty();
+        box_add(box, vec_scale(position[v], to_metres));
+    }
+}
+
 void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own,
                    Residual *other) {
     if (t->inside_known) return;
     t->inside_known = true;
     double to_metres = 1 / body->unit;
+    box_vertices(t, position, nvertices, to_metres);
     for (int p = 0; p < body->body->nparts; p++)
         for (int v = 0; v < nvertices; v++) {
+            if (v % BLOCK == 0 && !box_touches(t->block[v / BLOCK], body->box[p])) {
+                v += BLOCK - 1;
+                continue;
+            }
             double d = body_frame_distance(body, p, vec_scale(position[v], to_metres), 0, NULL);
             if (d >= 0) continue;
             Residual *r = t->own[v] & part_bit(body, p) ? own : other;
