@@ -16,6 +16,10 @@ enum { LATTICE_DEPTH_MAX = 3, LATTICE_LEVELS = LATTICE_DEPTH_MAX + 1 };
 
 typedef struct { int patch, a, b; } LatticeCell; /* cell (a, b) of a level: a along u, b along w */
 
+/* Where a lattice coordinate stands among the cells of a level: in which, and how its two ends weigh,
+   h and its derivative by the patch parameter. */
+typedef struct { int cell; double weight[2], slope[2]; } LatticeStep;
+
 typedef struct {
     int count;
     int *vertex;        /* [patch][a * (2^l + 1) + b]: number of the level vertex */
@@ -23,8 +27,7 @@ typedef struct {
     int *first_cell;    /* count + 1: cells round vertex v are cell[first_cell[v]..first_cell[v+1]) */
     LatticeCell *cell;
     bool *pinned;
-    double *weight;     /* [k], k = 0..stride: h(k / stride), stride = side / 2^l */
-    double *slope;      /* dh/dt per cell, times 2^l: derivative by the patch parameter */
+    LatticeStep *step;  /* 0..side, along either side of a patch */
 } LatticeLevel;
 
 typedef struct {

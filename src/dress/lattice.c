@@ -132,6 +132,14 @@ static void list_cells(const Lattice *l, LatticeLevel *level, int cells) {
     }
 }
 
+static LatticeStep step_at(int i, int stride, int cells) {
+    int cell = i / stride < cells ? i / stride : cells - 1;
+    double t = (double)(i - cell * stride) / stride, r = (double)(stride - (i - cell * stride)) / stride;
+    return (LatticeStep){cell,
+                         {1 - t * t * (3 - 2 * t), 1 - r * r * (3 - 2 * r)},
+                         {-6 * t * (1 - t) * cells, 6 * r * (1 - r) * cells}};
+}
+
 static bool build_level(Lattice *l, int number, int *of_place, Arena *arena, Error *e) {
     LatticeLevel *level = &l->level[number];
     int cells = 1 << number, n = cells + 1, stride = l->side / cells, most = l->fit->npatches * n * n;
@@ -140,16 +148,10 @@ static bool build_level(Lattice *l, int number, int *of_place, Arena *arena, Err
     level->first_cell = ARENA_NEW(arena, int, most + 1, e);
     level->cell = ARENA_NEW(arena, LatticeCell, 4 * most, e);
     level->pinned = ARENA_NEW(arena, bool, most, e);
-    level->weight = ARENA_NEW(arena, double, stride + 1, e);
-    level->slope = ARENA_NEW(arena, double, stride + 1, e);
-    if (!level->vertex || !level->place || !level->first_cell || !level->cell || !level->pinned || !level->weight ||
-        !level->slope)
+    level->step = ARENA_NEW(arena, LatticeStep, l->side + 1, e);
+    if (!level->vertex || !level->place || !level->first_cell || !level->cell || !level->pinned || !level->step)
         return false;
-    for (int k = 0; k <= stride; k++) {
-        double t = (double)k / stride;
-        level->weight[k] = 1 - t * t * (3 - 2 * t);
-        level->slope[k] = -6 * t * (1 - t) * cells;
-    }
+    for (int i = 0; i <= l->side; i++) level->step[i] = step_at(i, stride, cells);
     for (int k = 0; k < l->nplaces; k++) of_place[k] = -1;
     for (int p = 0; p < l->fit->npatches; p++)
         for (int a = 0; a < n; a++)
@@ -189,19 +191,14 @@ bool lattice_build(const Fit *fit, int detail, int depth, Arena *arena, Lattice 
 void lattice_weights(const Lattice *l, int number, int patch, int i, int j, int vertex[4], double weight[4],
                      double du[4], double dw[4]) {
     const LatticeLevel *level = &l->level[number];
-    int cells = 1 << number, n = cells + 1, stride = l->side >> number;
-    int a = i / stride, b = j / stride;
-    if (a == cells) a--;
-    if (b == cells) b--;
-    int u = i - a * stride, w = j - b * stride;
-    const double *h = level->weight, *s = level->slope;
-    double hu[2] = {h[u], h[stride - u]}, hw[2] = {h[w], h[stride - w]};
-    double su[2] = {s[u], -s[stride - u]}, sw[2] = {s[w], -s[stride - w]};
+    const LatticeStep *u = &level->step[i], *w = &level->step[j];
+    int n = (1 << number) + 1;
+    const int *corner = &level->vertex[(patch * n + u->cell) * n + w->cell];
     for (int k = 0; k < 4; k++) {
         int x = k / 2, y = k % 2;
-        vertex[k] = level->vertex[(patch * n + a + x) * n + b + y];
-        weight[k] = hu[x] * hw[y];
-        if (du) du[k] = su[x] * hw[y];
-        if (dw) dw[k] = hu[x] * sw[y];
+        vertex[k] = corner[x * n + y];
+        weight[k] = u->weight[x] * w->weight[y];
+        if (du) du[k] = u->slope[x] * w->weight[y];
+        if (dw) dw[k] = u->weight[x] * w->slope[y];
     }
 }
