@@ -232,8 +232,7 @@ static void round_trips(void) {
         {"thirds",
          "garment g\nring a pelvis 1\nbind a pelvis 1 chest 1 spine 1\nbind a.back head .1 neck .2 chest .3 spine .1\n"
          "ring b pelvis 0\npanel p\nrow a left front\nrow b left front\n"},
-        {"a fold that is meant",
-         "garment g\npatch s\n" FLAT "patch t\n" BACK "seam s.end t.start crease\n"},
+        {"a fold that is meant", "garment g\npatch s\n" FLAT "patch t\n" BACK "seam s.end t.start crease\n"},
         {"every statement",
          "garment g.v2\nfollow bones\nfit loose\ndetail 5\nring left_a left_thigh .1 size 1 2 3\nmove left_a.front 0 "
          ".1 0\n"
