@@ -125,7 +125,7 @@ static void test_limits(void) {
     session_close(&session);
 }
 
-/* Memory that runs out at any point is an error of that kind, and nothing else. */
+/* Memory that runs out at any point is an error of that kind, and nothing else; a limit is told as such. */
 static void test_memory(void) {
     static const char text[] = FRAMES("2") "1 2 3 4\n5 6 7 8\n";
     const char *path = file_of(text, sizeof text - 1);
@@ -136,7 +136,7 @@ static void test_memory(void) {
         Motion m;
         Error e = {0};
         opened = motion_open(path, &(MotionOptions){0}, &arena, NULL, &m, &e);
-        good = opened || (e.kind == ERR_INPUT && strstr(e.text, "more memory than the limit"));
+        good = opened || e.kind == ERR_INTERNAL;
         failed += !opened;
         motion_close(&m);
         arena_free(&arena);
@@ -149,6 +149,7 @@ static void test_memory(void) {
         Error e = {0};
         opened = motion_open(path, &(MotionOptions){0}, &arena, NULL, &m, &e);
         good = opened || (e.kind == ERR_INPUT && strstr(e.text, "more memory than the limit"));
+        if (!good) printf("# %d %s\n", (int)e.kind, e.text);
         motion_close(&m);
         arena_free(&arena);
     }
