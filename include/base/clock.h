@@ -5,4 +5,7 @@
 /* Seconds since some fixed moment. */
 double clock_seconds(void);
 
+/* Seconds since *since, which moves on to now. */
+double clock_lap(double *since);
+
 #endif

@@ -38,13 +38,6 @@ struct Job {
     bool has_failed, is_over;
 };
 
-/* Seconds since *since, which moves on to now. */
-static double lap(double *since) {
-    double now = clock_seconds(), seconds = now - *since;
-    *since = now;
-    return seconds;
-}
-
 static bool plan(Job *j, Error *e) {
     const Settings *s = j->settings;
     const Motion *m = &j->wearer.motion;
@@ -101,7 +94,7 @@ bool job_open(const JobOrder *order, Lane *lane, Notes *notes, Arena *arena, Job
     pthread_mutex_init(&j->guard, NULL);
     j->has_failed = !open_motion(j, lane, &out->error) || !open_output(j, &out->error);
     j->taken = !j->has_failed;
-    j->whole = out->seconds[STAGE_OPEN] = lap(&since);
+    j->whole = out->seconds[STAGE_OPEN] = clock_lap(&since);
     return !j->has_failed;
 }
 
@@ -180,7 +173,7 @@ void job_chunk(Job *j, int chunk, Lane *lane, const LaneWatch *watch) {
     Berth *b = &j->berth[chunk % j->nberths];
     dress(j, chunk, lane, watch, &b->result);
     pthread_mutex_lock(&j->guard);
-    j->whole += lap(&since) + b->result.helped;
+    j->whole += clock_lap(&since) + b->result.helped;
     j->finished++;
     j->has_failed = j->has_failed || b->result.error.kind != ERR_NONE;
     b->is_done = true;
@@ -255,5 +248,5 @@ void job_close(Job *j, FILE *about) {
     wearer_close(&j->wearer);
     lock_release(&j->lock);
     pthread_mutex_destroy(&j->guard);
-    j->result->seconds[STAGE_OTHER] = other_seconds(j->result->seconds, j->whole + lap(&since));
+    j->result->seconds[STAGE_OTHER] = other_seconds(j->result->seconds, j->whole + clock_lap(&since));
 }

@@ -19,13 +19,6 @@ typedef struct {
     PressTally tally;
 } Run;
 
-/* Seconds since *since, which moves on to now. */
-static double lap(double *since) {
-    double now = clock_seconds(), seconds = now - *since;
-    *since = now;
-    return seconds;
-}
-
 void lane_free(Lane *lane) {
     arena_free(&lane->arena);
     pen_free(&lane->pen);
@@ -60,7 +53,7 @@ static bool dress_garment(Run *r, int g, const TakeFrame *frame, StatsRow *row, 
     Mesh mesh;
     double since = clock_seconds();
     dresser_frame(r->lane->dresser[g], &r->lane->wearer.posed, frame->dt, frame->restart, &mesh, &row->stats);
-    r->result->seconds[g] += lap(&since);
+    r->result->seconds[g] += clock_lap(&since);
     return put(r, row->garment, frame->number, &mesh, &r->result->bytes[g], row, 1, e);
 }
 
@@ -70,7 +63,7 @@ static bool dress_frame(Run *r, const TakeFrame *frame, double since, Error *e) 
     bool residual = false;
     StatsRow *row = &r->result->row[r->result->nrows];
     body_frame_pose(&r->lane->wearer.posed, &frame->pose);
-    double pose_s = lap(&since) / n;
+    double pose_s = clock_lap(&since) / n;
     for (int g = 0; g < n; g++)
         row[g] = (StatsRow){.frame = frame->number, .time = frame->time, .split = (SplitRule)r->settings->split,
                             .method = (Method)r->settings->method, .garment = r->work->wardrobe->garment[g]->name,
