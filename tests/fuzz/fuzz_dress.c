@@ -64,7 +64,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     Error e = {0};
     Wardrobe w;
     Settings s = {.garments = {1, garments}, .output = folder, .frames = {1, 2, 1}, .detail = 2, .body_detail = 8};
-    if (!garment.file) {
+    if (!garment.path[0]) {
         if (!mkdtemp(folder)) abort();
         atexit(remove_folder);
     }

@@ -8,16 +8,18 @@
 #include <string.h>
 #include <unistd.h>
 
+int memfd_create(const char *name, unsigned flags); /* of Linux: a file in memory */
+
 /* Clear with {0}; stays open for the next input. */
 typedef struct {
-    FILE *file;
-    char path[32]; /* that Linux gives it */
+    int fd;
+    char path[32]; /* that Linux gives it; empty before the first input */
 } Sheet;
 
 static inline void sheet_write(Sheet *s, const void *data, size_t size) {
-    if (!s->file && !(s->file = tmpfile())) abort();
-    snprintf(s->path, sizeof s->path, "/dev/fd/%d", fileno(s->file));
-    if (ftruncate(fileno(s->file), 0) != 0 || pwrite(fileno(s->file), data, size, 0) != (ssize_t)size) abort();
+    if (!s->path[0] && (s->fd = memfd_create("sheet", 0)) < 0) abort();
+    snprintf(s->path, sizeof s->path, "/dev/fd/%d", s->fd);
+    if (ftruncate(s->fd, 0) != 0 || pwrite(s->fd, data, size, 0) != (ssize_t)size) abort();
 }
 
 static const char part_mark[] = "%%%\n";
