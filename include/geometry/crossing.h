@@ -24,6 +24,7 @@ typedef struct {
     int capacity, count;  /* items */
     const Vec3 *position; /* borrowed, as is the next: both must stay until the next build */
     const int *index;     /* per item 2 (segments) or 3 (triangles) vertices */
+    float reach;          /* largest magnitude of a coordinate */
     Tile *level[CROSSING_LEVELS]; /* boxes of items, of tiles of items, of tiles of those */
 } CrossingSet;
 

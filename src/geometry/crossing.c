@@ -30,6 +30,23 @@ bool crossing_reserve(CrossingSet *set, int capacity, Arena *arena, Error *e) {
 
 /* --- building --- */
 
+static int top_tiles(const CrossingSet *set) {
+    int n = set->count;
+    for (int l = 0; l <= TOP; l++) n = tiles(n);
+    return n;
+}
+
+static float reach_of(const CrossingSet *set) {
+    float reach = 0;
+    for (int t = 0; t < top_tiles(set); t++)
+        for (int x = 0; x < 3; x++)
+            for (int k = 0; k < LANES; k++) {
+                float low = set->level[TOP][t].low[x][k], high = set->level[TOP][t].high[x][k];
+                if (low <= high) reach = fmaxf(reach, fmaxf(-low, high));
+            }
+    return reach;
+}
+
 static void build(CrossingSet *set, const Vec3 *position, const int *index, int n, int corners, TileBoxes *boxes) {
     set->position = position;
     set->index = index;
@@ -44,6 +61,7 @@ static void build(CrossingSet *set, const Vec3 *position, const int *index, int 
         for (int t = 0; l < TOP && t < tiles(n); t++)
             tile_sum(&set->level[l][t], &set->level[l + 1][t / LANES], t % LANES);
     }
+    set->reach = reach_of(set);
 }
 
 void crossing_build_edges(CrossingSet *set, const Vec3 *position, const Edge *edge, int n) {
@@ -57,25 +75,24 @@ void crossing_build_triangles(CrossingSet *set, const Vec3 *position, const Tria
 /* --- the plane --- */
 
 /* n (x - origin) is the volume under x. Its error is at most 54 u size^2 |x - origin|, u = 2^-53
-   (see predicate.c: nine roundings of six products); `slack` is 2^-47 size^2, that is 64 u. */
+   (see predicate.c: nine roundings of six products); `slack` is more than that for any x in reach. */
 typedef struct { Vec3 origin, n; double slack; } Plane;
 
 static double greater(double a, double b) { return a > b ? a : b; }
 static double extent(Vec3 v) { return greater(fabs(v.x), greater(fabs(v.y), fabs(v.z))); }
 
-static Plane plane_of(const CrossingSet *triangles, int triangle) {
+static Plane plane_of(const CrossingSet *triangles, int triangle, double reach) {
     const int *i = triangles->index + 3 * (size_t)triangle;
     Vec3 a = triangles->position[i[0]];
     Vec3 u = vec_sub(triangles->position[i[1]], a), v = vec_sub(triangles->position[i[2]], a);
     double size = greater(extent(u), extent(v));
-    return (Plane){a, vec_cross(u, v), 0x1p-47 * size * size};
+    return (Plane){a, vec_cross(u, v), 0x1p-47 * size * size * 2 * reach + DBL_MIN};
 }
 
-/* On which side x is for certain: 1, -1, or 0 where doubles cannot tell. */
-static int side_of(const Plane *plane, Vec3 x) {
-    Vec3 d = vec_sub(x, plane->origin);
-    double volume = vec_dot(plane->n, d), slack = plane->slack * extent(d) + DBL_MIN;
-    return (volume > slack) - (volume < -slack);
+/* Are both on one side of the plane, for certain? */
+static bool are_beside(const Plane *plane, Vec3 p, Vec3 q) {
+    double a = vec_dot(plane->n, vec_sub(p, plane->origin)), b = vec_dot(plane->n, vec_sub(q, plane->origin));
+    return (a > plane->slack && b > plane->slack) || (a < -plane->slack && b < -plane->slack);
 }
 
 /* --- searching --- */
@@ -83,18 +100,25 @@ static int side_of(const Plane *plane, Vec3 x) {
 typedef struct {
     const CrossingSet *edges, *triangles;
     const TileMachine *machine;
+    double reach;
     Crossing *out;
     int capacity, written;
     CrossingCount *count;
     bool first_only;
 } Search;
 
+static Search search_of(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
+                        CrossingCount *count) {
+    return (Search){edges, triangles, tile_machine(edges->vectors), fmaxf(edges->reach, triangles->reach),
+                    .out = out, .capacity = capacity, .count = count};
+}
+
 /* All below return true to end the search. */
 static bool decide(Search *s, int edge, int triangle, const Plane *plane) {
     const int *i = s->edges->index + 2 * (size_t)edge, *j = s->triangles->index + 3 * (size_t)triangle;
     const Vec3 *v = s->edges->position, *w = s->triangles->position;
     Vec3 p = v[i[0]], q = v[i[1]];
-    if (side_of(plane, p) * side_of(plane, q) > 0) return false;
+    if (are_beside(plane, p, q)) return false;
     if (!predicate_segment_triangle(p, q, w[j[0]], w[j[1]], w[j[2]])) return false;
     s->count->hits++;
     if (s->written < s->capacity) s->out[s->written++] = (Crossing){edge, triangle};
@@ -103,7 +127,7 @@ static bool decide(Search *s, int edge, int triangle, const Plane *plane) {
 
 /* The lanes `edges` of edge tile i against one triangle: all their boxes overlap. */
 static bool search_triangle(Search *s, int i, unsigned edges, int triangle) {
-    Plane plane = plane_of(s->triangles, triangle);
+    Plane plane = plane_of(s->triangles, triangle, s->reach);
     s->count->pairs_tested += __builtin_popcount(edges);
     for (; edges; edges &= edges - 1)
         if (decide(s, i * LANES + lowest(edges), triangle, &plane)) return true;
@@ -129,12 +153,6 @@ static bool search_tiles(Search *s, int level, int i, int j, TileLanes triangles
     return false;
 }
 
-static int top_tiles(const CrossingSet *set) {
-    int n = set->count;
-    for (int l = 0; l <= TOP; l++) n = tiles(n);
-    return n;
-}
-
 static int search(Search *s) {
     s->count->pairs_all += (long long)s->edges->count * s->triangles->count;
     for (int i = 0; i < top_tiles(s->edges); i++)
@@ -145,13 +163,13 @@ static int search(Search *s) {
 
 int crossing_find(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
                   CrossingCount *count) {
-    Search s = {edges, triangles, tile_machine(edges->vectors), .out = out, .capacity = capacity, .count = count};
+    Search s = search_of(edges, triangles, out, capacity, count);
     return search(&s);
 }
 
 bool crossing_any(const CrossingSet *edges, const CrossingSet *triangles, CrossingCount *count) {
     Crossing hit;
-    Search s = {edges, triangles, tile_machine(edges->vectors), .out = &hit, .capacity = 1, .count = count};
+    Search s = search_of(edges, triangles, &hit, 1, count);
     s.first_only = true;
     return search(&s) > 0;
 }
@@ -202,18 +220,6 @@ static unsigned reaching(const Ends *ends, const FloatPlane *plane, float slack)
     return (unsigned)found;
 }
 
-/* The largest magnitude of a coordinate. */
-static float reach_of(const CrossingSet *set) {
-    float reach = 0;
-    for (int t = 0; t < top_tiles(set); t++)
-        for (int x = 0; x < 3; x++)
-            for (int k = 0; k < LANES; k++) {
-                float low = set->level[TOP][t].low[x][k], high = set->level[TOP][t].high[x][k];
-                if (low <= high) reach = fmaxf(reach, fmaxf(-low, high));
-            }
-    return reach;
-}
-
 /* Tiles first..first+n-1 of the edges, in `ends`, against every triangle. */
 static void search_block(Search *s, const Ends *ends, int first, int n, float slack) {
     for (int triangle = 0; triangle < s->triangles->count; triangle++) {
@@ -223,7 +229,7 @@ static void search_block(Search *s, const Ends *ends, int first, int n, float sl
             unsigned found = reaching(&ends[i], &plane, slack);
             if (found) found &= s->machine->overlap(&s->edges->level[0][first + i], box, triangle % LANES);
             if (!found) continue;
-            Plane exact = plane_of(s->triangles, triangle);
+            Plane exact = plane_of(s->triangles, triangle, s->reach);
             for (; found; found &= found - 1) decide(s, (first + i) * LANES + lowest(found), triangle, &exact);
         }
     }
@@ -241,9 +247,9 @@ int crossing_find_plainly(const CrossingSet *edges, const CrossingSet *triangles
                           CrossingCount *count) {
     enum { BLOCK = 64 };
     Ends ends[BLOCK];
-    Search s = {edges, triangles, tile_machine(edges->vectors), .out = out, .capacity = capacity, .count = count};
+    Search s = search_of(edges, triangles, out, capacity, count);
     long long pairs = (long long)edges->count * triangles->count;
-    float slack = 8 * FLT_EPSILON * fmaxf(reach_of(edges), reach_of(triangles)) + FLT_MIN;
+    float slack = 8 * FLT_EPSILON * (float)s.reach + FLT_MIN;
     count->pairs_all += pairs;
     count->pairs_tested += pairs;
     for (int first = 0, n = 0; first < tiles(edges->count); first += n) {
