@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "dress/room.h"
+
 #include "tap.h"
 
 static Arena arena;
@@ -17,7 +19,7 @@ static Model model(double size, double off) {
     for (int r = 0; r < ROLE_COUNT; r++) {
         m.figure.start[r] = vec_scale(m.figure.start[r], size);
         m.figure.end[r] = vec_scale(m.figure.end[r], size);
-        for (int k = 0; k < CLOTH_PLACES; k++) m.cloth.off[r][k] = 0.5 * m.off;
+        for (int k = 0; k < CLOTH_PLACES; k++) m.cloth.side[r][k] = m.cloth.front[r][k] = 0.5 * m.off;
     }
     if (!body_fit(body_default(), &m.figure, 16, &arena, &m.body, &e)) exit(1);
     return m;
@@ -204,6 +206,10 @@ static void test_invariant(void) {
        "the same anywhere in the world");
     OK(difference(&a[0], &c[1]) + difference(&a[1], &c[0]) < 1e-6, "the same in a mirror");
     OK(difference(&a[0], &d[0]) + difference(&a[1], &d[1]) < 0.01, "the same for a child");
+    m.cloth.is_tube = true;
+    relax_find(&m.figure, &m.body, &m.cloth, &pose, b);
+    relax_find(&m.figure, &m.body, &m.cloth, &mirrored, c);
+    OK(difference(&b[0], &c[1]) + difference(&b[1], &c[0]) < 1e-6, "in a mirror also with a skirt");
     relax_apply(&m.figure, a, &pose);
     relax_apply(&m.figure, a, &moved);
     Vec3 hand = m.figure.end[ROLE_LEFT_HAND];
@@ -231,7 +237,37 @@ static void test_apply(void) {
     OK(right.x < 0 && fabs(right.y) + fabs(right.z) < 1e-9, "outwards ends where the arm points straight to the side");
 }
 
+/* The cloth of real garments, as it is measured. */
+static void test_room(void) {
+    Model m = model(1, 0);
+    Error e = {0};
+    Garment *skirt = ARENA_NEW(&arena, Garment, 1, &e), *shirt = ARENA_NEW(&arena, Garment, 1, &e);
+    Cloth skirts = {.is_tube = false}, shirts = skirts;
+    bool good = skirt && shirt && garment_read("garments/skirt.garment", &arena, skirt, &e) &&
+                garment_read("garments/tshirt.garment", &arena, shirt, &e) &&
+                room_add(skirt, &m.figure, &m.body, &arena, &skirts, &e) &&
+                room_add(shirt, &m.figure, &m.body, &arena, &shirts, &e);
+    OK(good && skirts.is_tube && !shirts.is_tube, "a skirt is a tube, a T-shirt is none");
+    double uneven = 0, thigh = 0, sleeve = 0, bare = 0;
+    for (int k = 0; k < CLOTH_PLACES; k++) {
+        for (int r = ROLE_LEFT_CLAVICLE; r <= ROLE_LEFT_HAND; r++)
+            uneven = fmax(uneven, fabs(shirts.side[r][k] - shirts.side[r + ROLE_RIGHT_HAND - ROLE_LEFT_HAND][k]));
+        for (int r = ROLE_LEFT_THIGH; r <= ROLE_LEFT_SHIN; r++) {
+            int right = r + ROLE_RIGHT_THIGH - ROLE_LEFT_THIGH;
+            uneven = fmax(uneven, fabs(skirts.side[r][k] - skirts.side[right][k]));
+            uneven = fmax(uneven, fabs(skirts.front[r][k] - skirts.front[right][k]));
+        }
+        thigh = fmax(thigh, skirts.side[ROLE_LEFT_THIGH][k]);
+        sleeve = fmax(sleeve, shirts.side[ROLE_LEFT_UPPER_ARM][k]);
+        bare = fmax(bare, skirts.side[ROLE_LEFT_HAND][k] + shirts.side[ROLE_LEFT_SHIN][k]);
+    }
+    OK(uneven < 1e-6, "left and right alike");
+    OK(thigh > 0.05 && thigh < 0.2 && sleeve > 0.01 && sleeve <= 0.0301 && bare == 0,
+       "a skirt stands %.1f cm off the thighs, a sleeve %.1f off the arm", 100 * thigh, 100 * sleeve);
+}
+
 int main(void) {
+    test_room();
     test_enough();
     test_nothing();
     test_continuous();

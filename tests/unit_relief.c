@@ -33,7 +33,8 @@ static void open_scene(Scene *s) {
         !body_fit(body_default(), &s->rig.figure, 16, &s->rig.arena, &s->body, &e))
         exit(1);
     for (int r = 0; r < ROLE_COUNT; r++)
-        for (int k = 0; k < CLOTH_PLACES; k++) s->cloth.off[r][k] = r == ROLE_LEFT_THIGH || r == ROLE_PELVIS ? 0.12 : 0;
+        for (int k = 0; k < CLOTH_PLACES; k++)
+            s->cloth.side[r][k] = r == ROLE_LEFT_THIGH || r == ROLE_PELVIS ? 0.12 : 0;
     Relief *r = open_relief(s);
     s->count = s->rig.motion.nframes;
     for (int f = 0; f < s->count && f < FRAMES_MOST; f++) {

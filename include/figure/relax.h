@@ -5,10 +5,13 @@
 
 #include "figure/body.h"
 
-/* How far cloth stands off the sides of each part of the body, metres: `off` at places spread evenly
-   from the part's low end to its high end. 0: bare there. Clear with {0}. */
+/* How far cloth stands off each part of the body, metres, where arm and trunk would touch and in front:
+   at places spread evenly from the part's low end to its high end. 0: bare there. Clear with {0}. */
 enum { CLOTH_PLACES = 12 };
-typedef struct { double off[ROLE_COUNT][CLOTH_PLACES]; } Cloth;
+typedef struct {
+    double side[ROLE_COUNT][CLOTH_PLACES], front[ROLE_COUNT][CLOTH_PLACES];
+    bool is_tube; /* some of it goes round both legs, and hangs between them too */
+} Cloth;
 
 /* Degrees by which an arm is turned: the whole arm about the shoulder, out to the side and forwards,
    and forearm and hand about the elbow, out to the side. */

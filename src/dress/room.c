@@ -1,14 +1,17 @@
 /* Samples the garment in the canonical stance. Each sample belongs to the part that is nearest of those
    that its patch keeps out of, and counts where arm and trunk would touch: on the outer side of
-   trunk and legs, on the inner side of the arms. */
+   trunk and legs, on the inner side of the arms, and in front. */
 #include "dress/room.h"
 
 #include "dress/follow.h"
 
 enum { SAMPLES = 12 }; /* along each side of a patch */
 
-/* Cosine to the side: what stands off to the front or the back does not count. */
-static const double SIDEWAYS = 0.6;
+/* Cosine to the side, or to the front, up to which cloth stands off there. */
+static const double FACING = 0.6;
+
+/* Distances that differ by less (metres) are the same. */
+static const double SAME = 1e-6;
 
 /* No tight garment stands off by more (metres, for a figure of 1.70 m): its cloth under the armpit
    belongs to the sleeve and to the trunk, and lies on neither. */
@@ -31,24 +34,25 @@ static Vec3 side_of(const BodyPart *part, Vec3 p) {
     return vec_unit_or(vec_mad(out, along, -vec_dot(out, along)), out);
 }
 
+/* p belongs to the nearest part, and to both legs where it is as near to one as to the other. */
 static void add_sample(const Body *body, unsigned collide, Vec3 p, double most, Cloth *cloth) {
-    const BodyPart *near = NULL;
-    Vec3 normal = {0, 0, 0};
     double least = 1;
+    Vec3 normal;
     for (int i = 0; i < body->nparts; i++) {
         const BodyPart *part = &body->part[i];
-        Vec3 n;
-        if (!(collide >> part->role & 1)) continue;
-        double d = body_distance(part, rigid_unapply(part->frame, p), least, &n);
-        if (d >= least) continue;
-        least = d;
-        near = part;
-        normal = mat_apply(part->frame.r, n);
+        if (collide >> part->role & 1)
+            least = fmin(least, body_distance(part, rigid_unapply(part->frame, p), least, &normal));
     }
-    if (!near || vec_dot(normal, side_of(near, p)) < SIDEWAYS) return;
-    double y = rigid_unapply(near->frame, p).y, place = (y - near->low) / (near->high - near->low);
-    double *off = cloth->off[near->role] + (int)(clamp(place, 0, 1) * (CLOTH_PLACES - 1) + 0.5);
-    *off = fmax(*off, fmin(least, most));
+    for (int i = 0; i < body->nparts; i++) {
+        const BodyPart *part = &body->part[i];
+        Vec3 local = rigid_unapply(part->frame, p);
+        if (!(collide >> part->role & 1) || body_distance(part, local, least + SAME, &normal) >= least + SAME) continue;
+        normal = mat_apply(part->frame.r, normal);
+        int place = (int)(clamp((local.y - part->low) / (part->high - part->low), 0, 1) * (CLOTH_PLACES - 1) + 0.5);
+        double *side = &cloth->side[part->role][place], *front = &cloth->front[part->role][place];
+        if (vec_dot(normal, side_of(part, p)) >= FACING) *side = fmax(*side, fmin(least, most));
+        if (normal.z >= FACING) *front = fmax(*front, fmin(least, most));
+    }
 }
 
 bool room_add(const Garment *garment, const Figure *figure, const Body *body, Arena *arena, Cloth *cloth, Error *e) {
@@ -61,6 +65,7 @@ bool room_add(const Garment *garment, const Figure *figure, const Body *body, Ar
     Patch *patch = ARENA_NEW(arena, Patch, fit->npatches, e);
     if (!patch) return false;
     follow_pose(&follower, &stance, patch);
+    cloth->is_tube = cloth->is_tube || garment->follow == FOLLOW_ENVELOPE;
     double most = garment->loose ? INFINITY : TIGHT_MOST * figure->height / 1.7;
     for (int p = 0; p < fit->npatches; p++)
         for (int k = 0; k <= SAMPLES * (SAMPLES + 2); k++) {

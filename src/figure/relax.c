@@ -14,6 +14,11 @@ const double relax_most[TURNS] = {40, 20, 30};
 static const Role TRUNK[] = {ROLE_PELVIS, ROLE_SPINE, ROLE_CHEST, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH};
 enum { TRUNK_PARTS = sizeof TRUNK / sizeof TRUNK[0], SECTIONS_PER_PART = 8, FEET = 2, STEPS = 12 };
 
+/* A skirt spans from thigh to thigh: there it counts as if more thighs stood between the two, at these
+   parts of the way from left to right. */
+static const double BETWEEN[] = {0.2, 0.4, 0.6, 0.8};
+enum { BETWEEN_PARTS = sizeof BETWEEN / sizeof BETWEEN[0], KEPT_OFF_MOST = TRUNK_PARTS + BETWEEN_PARTS };
+
 /* How much of the way of the turn (cosine) leads away from the trunk: below the first a section has no
    say, from the second on its full say. */
 static const double ASIDE = 0.1, ALONG = 0.4;
@@ -51,8 +56,8 @@ typedef struct {
     const Cloth *cloth;
     const Pose *pose;     /* with the turns found so far */
     int arm, ntrunk;
-    const BodyPart *trunk[TRUNK_PARTS];
-    Rigid to_part[TRUNK_PARTS];
+    const BodyPart *trunk[KEPT_OFF_MOST];
+    Rigid to_part[KEPT_OFF_MOST];
 } Search;
 
 /* ---- joints ---- */
@@ -105,12 +110,14 @@ void relax_apply(const Figure *figure, const ArmTurn turn[ARMS], Pose *pose) {
 
 /* ---- gaps ---- */
 
-/* How far the cloth on a part stands off it at height y of the part's frame. */
-static double cloth_at(const Cloth *cloth, const BodyPart *part, double y) {
+/* How far the cloth on a part stands off it at height y of the part's frame: in front of it as far as
+   `facing` (cosine) says, else beside it. */
+static double cloth_at(const Cloth *cloth, const BodyPart *part, double y, double facing) {
     double place = clamp((y - part->low) / (part->high - part->low), 0, 1) * (CLOTH_PLACES - 1);
     int i = place < CLOTH_PLACES - 2 ? (int)place : CLOTH_PLACES - 2;
-    const double *off = cloth->off[part->role];
-    return off[i] + (place - i) * (off[i + 1] - off[i]);
+    const double *side = cloth->side[part->role] + i, *front = cloth->front[part->role] + i;
+    double share = facing > 0 ? facing * facing : 0, t = place - i;
+    return (1 - share) * (side[0] + t * (side[1] - side[0])) + share * (front[0] + t * (front[1] - front[0]));
 }
 
 /* A section of the arm, posed. */
@@ -124,7 +131,7 @@ typedef struct {
 static Slice slice_of(const Search *s, const BodyPart *part, double y) {
     Rigid g = rigid_mul(s->pose->bone[part->role], part->frame);
     Section c = body_section_at(part, y, NULL);
-    Slice out = {rigid_apply(g, vec(c.x, y, c.z)), g.r, c, cloth_at(s->cloth, part, y), 0};
+    Slice out = {rigid_apply(g, vec(c.x, y, c.z)), g.r, c, cloth_at(s->cloth, part, y, 0), 0};
     if (part->role == upper_arm(s->arm))
         out.grace = (1 - smoothstep(ARMPIT_FROM, ARMPIT_TO, y / part->length)) * ARMPIT_DEPTH * s->figure->height / 1.7;
     return out;
@@ -163,15 +170,16 @@ typedef struct {
 static Gap gap_after(const Search *s, const Slice *slice, int trunk, Rigid turn) {
     const BodyPart *part = s->trunk[trunk];
     Vec3 centre = rigid_apply(turn, slice->centre), point = centre, local, normal;
-    double size = s->figure->height / 1.7, distance = 0;
+    double size = s->figure->height / 1.7, distance = 0, facing = 0;
     for (int pass = 0; pass < 2; pass++) {
         local = rigid_apply(s->to_part[trunk], point);
         normal = vec(0, 0, 0);
         distance = distance_of(part, local, FAR * size, &normal);
+        facing = normal.z;
         normal = mat_apply(mat_transpose(s->to_part[trunk].r), normal);
         if (pass == 0) point = rim_point(slice, turn.r, centre, vec_scale(normal, -1));
     }
-    double cloth = cloth_at(s->cloth, part, local.y) + slice->cloth;
+    double cloth = cloth_at(s->cloth, part, local.y, facing) + slice->cloth;
     double wanted = cloth > 0 ? cloth + SPARE * size : -FAR * size;
     return (Gap){wanted - slice->grace - distance, point, normal};
 }
@@ -285,13 +293,29 @@ static ArmTurn find_arm(Search *s, const Pose *pose) {
     return turn;
 }
 
+static void keep_off(Search *s, const BodyPart *part, Rigid frame) {
+    s->trunk[s->ntrunk] = part;
+    s->to_part[s->ntrunk++] = rigid_inverse(frame);
+}
+
+static void keep_off_between(Search *s, const BodyPart *left, const BodyPart *right, const Pose *pose) {
+    Rigid a = rigid_mul(pose->bone[left->role], left->frame), b = rigid_mul(pose->bone[right->role], right->frame);
+    for (int i = 0; i < BETWEEN_PARTS; i++) {
+        Rigid frame = {mat_nlerp(a.r, b.r, BETWEEN[i]), vec_lerp(a.t, b.t, BETWEEN[i])};
+        keep_off(s, BETWEEN[i] < 0.5 ? left : right, frame);
+    }
+}
+
 void relax_find(const Figure *figure, const Body *body, const Cloth *cloth, const Pose *pose, ArmTurn out[ARMS]) {
     Search s = {.figure = figure, .body = body, .cloth = cloth};
+    int left = body->of_role[ROLE_LEFT_THIGH], right = body->of_role[ROLE_RIGHT_THIGH];
     for (int t = 0; t < TRUNK_PARTS; t++) {
         if (body->of_role[TRUNK[t]] < 0) continue;
-        const BodyPart *part = s.trunk[s.ntrunk] = &body->part[body->of_role[TRUNK[t]]];
-        s.to_part[s.ntrunk++] = rigid_inverse(rigid_mul(pose->bone[part->role], part->frame));
+        const BodyPart *part = &body->part[body->of_role[TRUNK[t]]];
+        keep_off(&s, part, rigid_mul(pose->bone[part->role], part->frame));
     }
+    if (cloth->is_tube && left >= 0 && right >= 0)
+        keep_off_between(&s, &body->part[left], &body->part[right], pose);
     for (int arm = 0; arm < ARMS; arm++) {
         s.arm = arm;
         out[arm] = find_arm(&s, pose);
