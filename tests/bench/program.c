@@ -47,7 +47,8 @@ static void whole_job(Bench *b, const char *scene, const char *garments) {
     }
     long long n = garment_frames(b);
     bench_enter(b, (BenchRow){scene, "job on two threads", n, "garment frames", time[1], "on one", time[0], 1.85});
-    bench_enter(b, (BenchRow){scene, "job without files", n, "garment frames", time[2], "with OBJ and Draco", time[0], 3});
+    bench_enter(b, (BenchRow){scene, "job without files", n, "garment frames", time[2], "with OBJ and Draco", time[0],
+                              3});
 }
 
 /* Motion capture, as far as it is at hand: a thousand garment frames a second on two threads? */
