@@ -2,7 +2,7 @@
 #ifndef DRESS_BODYFRAME_H
 #define DRESS_BODYFRAME_H
 
-#include "figure/body.h"
+#include "dress/yield.h"
 #include "geometry/crossing.h"
 
 typedef struct {
@@ -15,16 +15,18 @@ typedef struct {
     Rigid to_part[BODY_PARTS_MAX]; /* world (metres) -> part frame */
     Mat3 to_world[BODY_PARTS_MAX]; /* part frame -> world, directions */
     Box box[BODY_PARTS_MAX];       /* of each part; world, metres; a little larger than it */
+    Contacts contacts[BODY_PARTS_MAX]; /* what each part gives way to in this pose */
     CrossingSet edges[BODY_PARTS_MAX], triangles[BODY_PARTS_MAX];
     double seconds;                /* that posing took */
 } BodyFrame;
 
 MUST_CHECK bool body_frame_init(BodyFrame *f, const Body *body, double unit, Arena *arena, Error *e);
 
-/* Poses the body and boxes its edges and triangles. Allocates nothing. */
+/* Poses the body, lets its parts give way to each other, and boxes its edges and triangles.
+   Allocates nothing. */
 void body_frame_pose(BodyFrame *f, const Pose *pose);
 
-/* Signed distance (metres) of a world point from a part; *normal, if not NULL, in the world.
+/* Signed distance (metres) of a world point from a part, which has given way; *normal, if not NULL, in the world.
    See body_distance for `far`. */
 double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal);
 

@@ -19,15 +19,12 @@ typedef struct {
 MUST_CHECK bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e);
 void field_forget(Field *f);
 
+/* The displacement of one field into another on the same lattice. */
+void field_copy(const Field *from, Field *to);
+
 /* Takes the displacement of the last frame along: turned with the pelvis, faded with time (dt
    seconds). What is still felt keeps its cells split. restart: forget it. */
 void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leaves *leaves);
-
-/* Patch and lattice coordinates under which a place is evaluated. */
-void field_owner(const Lattice *l, int place, int *patch, int *i, int *j);
-
-/* A place on the undisplaced root patches. */
-Vec3 field_global(const Lattice *l, const Patch *root, int place);
 
 /* Levels (bit 1 << level) at which anything is displaced. */
 unsigned field_levels(const Field *f);

@@ -30,9 +30,9 @@ typedef struct {
     int hits_before;                  /* body edges through the global shape */
     int sweeps, active;               /* solver sweeps, displaced level vertices */
     double displacement;              /* largest move from the global to the final shape */
-    int residual_edges, residual_cloth, inside; /* against the garment's own colliders */
+    int residual_edges, residual_cloth, inside; /* against parts that the garment is worn over */
     double deepest;                   /* of the inside vertices */
-    int limb_edges, limb_cloth, limb_inside;    /* against all other parts of the body */
+    int limb_edges, limb_cloth, limb_inside;    /* against all others */
     int pinched;                      /* vertices where the body leaves no room */
     bool capped;                      /* a cap (sweeps, rounds, displacement) was reached */
     bool restarted;                   /* carried state dropped: jump in the motion */

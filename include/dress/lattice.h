@@ -38,6 +38,7 @@ typedef struct {
     int *place;         /* [patch][i * (side + 1) + j]: number of the place */
     int *owner;         /* place -> patch * (side + 1)^2 + i * (side + 1) + j of the patch that evaluates it */
     unsigned *collide;  /* place -> parts that it must stay out of (those that its patches share) */
+    unsigned *outside;  /* place -> parts that come to it from outside; never one of `collide` */
     bool *pinned;       /* place */
     LatticeLevel level[LATTICE_LEVELS];
     double (*basis)[4], (*basis_slope)[4]; /* Bernstein values at i / side */
@@ -50,6 +51,12 @@ static inline int lattice_place(const Lattice *l, int patch, int i, int j) {
     int n = l->side + 1;
     return l->place[(patch * n + i) * n + j];
 }
+
+/* Patch and lattice coordinates under which a place is evaluated. */
+void lattice_owner(const Lattice *l, int place, int *patch, int *i, int *j);
+
+/* A place on the root patches. */
+Vec3 lattice_point(const Lattice *l, const Patch *root, int place);
 
 /* The up to four level-l vertices that move a place and their weights; du, dw (may be NULL): the
    weights' derivatives by the patch parameters. patch, i, j as in `owner`. */

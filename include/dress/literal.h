@@ -21,7 +21,6 @@ typedef struct {
     int nleaves;
     Mesh mesh;         /* a piece for each leaf, nothing shared: cracks between leaves stay visible */
     int *first_of_patch; /* npatches + 1: its triangles of a root patch */
-    unsigned *own;     /* per vertex: parts that must not show, bits 1 << role */
     Triangle *facet;   /* of one leaf */
     Vec3 *point;       /* of one leaf; output units, snapped */
     double *side;      /* per vertex of a part: S_a012 */

@@ -10,6 +10,8 @@ typedef struct {
     unsigned near;                    /* parts (bit 1 << part) worth asking */
     int id[4 * LATTICE_LEVELS];       /* into Field.displacement */
     double weight[4 * LATTICE_LEVELS], share[4 * LATTICE_LEVELS], norm2; /* share: weight x mobility */
+    int fine;                         /* the first of them below the top level, */
+    double fine_norm2;                /* and what norm2 is from there on */
     double spent, budget;             /* push issued in this frame, and its limit; metres */
     Vec3 net;                         /* their sum */
     Vec3 seen;                        /* where it was when its distances were last taken, */
@@ -20,9 +22,10 @@ typedef struct {
 typedef struct {
     const Lattice *lattice;
     Field field;
-    Field kept;                       /* of the attempt before, see push_afresh */
-    Vec3 *kept_point;
+    unsigned limbs;                   /* parts (bits 1 << role) that may push from outside */
+    Field kept;                       /* of another attempt */
     bool *active;                     /* per level vertex: all cells round it are split to its level */
+    Vec3 *rest;                       /* per lattice place: in the bind pose */
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
     double *clearance;                /* per mesh vertex: distance asked for */
     PushSample *sample;
@@ -37,6 +40,9 @@ typedef struct {
 } PushResult;
 
 MUST_CHECK bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e);
+
+/* Remembers on which side of the body every place is: root patches in the bind pose. */
+void push_bind(Push *p, const Patch *root);
 
 /* Evaluates the global shape from the root patches at the vertices of the sheet. */
 void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *sheet);
@@ -54,11 +60,9 @@ void push_rest(Push *p, const Sheet *sheet);
 bool push_raise(Push *p, int vertex, double by);
 void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
 
-/* A carried displacement can hold a tangle that no sweep undoes. push_afresh keeps this attempt
-   and forgets the displacement, so that push_start and push_solve make another from the global
-   shape alone; push_back takes the kept attempt again. */
-void push_afresh(Push *p);
-void push_back(Push *p);
+/* Keeps the displacement, to take it back after another attempt. */
+void push_keep(Push *p);
+void push_back(Push *p, const Sheet *sheet);
 
 /* Fills what the solution amounts to: active, pinched, displacement. */
 void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);

@@ -9,12 +9,11 @@ typedef struct {
     CrossingSet edges, triangles;
     const Edge *edge;
     const Triangle *triangle;
-    const unsigned *own;  /* per vertex: parts (bits 1 << role) that must not show there */
+    unsigned own;         /* parts (bits 1 << role) that the garment is worn over */
     Crossing *found;
     int capacity;
     Box *block;           /* private: boxes round the vertices */
     int *bad, nbad;       /* vertices that must not be where they are, in the order found */
-    bool inside_known;    /* tester_inside has counted since the mesh was built */
 } Tester;
 
 typedef struct {
@@ -29,15 +28,14 @@ MUST_CHECK bool tester_reserve(Tester *t, int edges, int triangles, Arena *arena
 
 /* Boxes the mesh; all arrays must stay until the last test. own: see Tester. */
 void tester_build(Tester *t, const Vec3 *position, const Edge *edge, int nedges, const Triangle *triangle,
-                  int ntriangles, const unsigned *own);
+                  int ntriangles, unsigned own);
 
-/* Counts the crossings with the parts in `parts` (bits 1 << role): *own where the part must not
-   show, *other elsewhere. Appends the garment vertices of the former to t->bad. */
+/* Counts the crossings with the parts in `parts` (bits 1 << role): *own those with parts that the
+   garment is worn over, *other the rest. Appends their garment vertices to t->bad. */
 void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other,
                   CrossingCount *count);
 
-/* Counts the vertices inside any part, and appends those that must not be to t->bad. Once for
-   each mesh: a second call adds nothing. */
+/* Counts the vertices inside any part, and appends them to t->bad. */
 void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own,
                    Residual *other);
 

@@ -19,6 +19,10 @@ const char *role_name(Role role);
 /* The role of that name (length bytes), or ROLE_COUNT. */
 Role role_find(const char *name, int length);
 
+/* The limb that a role belongs to: 0 the trunk with neck and head, 1 and 2 the arms (left, right), 3 and 4
+   the legs. Roles of a limb follow each other from the trunk outwards. */
+int role_limb(Role role);
+
 /* joint[role]: the joint whose rotation moves that bone and at whose origin it begins; -1 =
    the skeleton has none. Pelvis, chest, and on both sides upper arm, forearm, thigh and shin
    are always there after a success. */

@@ -23,7 +23,113 @@ static void find_box(BodyFrame *f, int part) {
     Box b = box_empty();
     for (int v = p->first_vertex; v < p->first_vertex + p->nvertices; v++) box_add(&b, f->position[v]);
     Vec3 room = vec_scale(vec(1, 1, 1), BULGE * vec_dist(b.low, b.high));
-    f->box[part] = (Box){vec_scale(vec_sub(b.low, room), 1 / f->unit), vec_scale(vec_add(b.high, room), 1 / f->unit)};
+    f->box[part] = (Box){vec_sub(b.low, room), vec_add(b.high, room)};
+}
+
+/* Distance from a part as it is without others. */
+static double own_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal) {
+    if (body_frame_far(f, part, p, far)) return far;
+    double d = body_distance(&f->body->part[part], rigid_apply(f->to_part[part], p), far, normal);
+    if (normal && d < far) *normal = mat_apply(f->to_world[part], *normal);
+    return d;
+}
+
+static double scale_of(const BodyFrame *f) { return f->body->height / 1.70; }
+
+/* How far a part gives way at p, `distance` away from it: to the other that asks for most. */
+static double give_way(const BodyFrame *f, int part, Vec3 p, double distance, Vec3 *normal) {
+    const Contacts *contacts = &f->contacts[part];
+    Vec3 mine = *normal;
+    double most = 0, far = YIELD_ROOM * scale_of(f) - distance;
+    for (int k = 0; k < contacts->n; k++) {
+        Vec3 away, turned = mine;
+        double other = own_distance(f, contacts->contact[k].other, p, far, &away);
+        if (other >= far) continue;
+        double by = yield_by(&contacts->contact[k], scale_of(f), distance, other, away, &turned);
+        if (by <= most) continue;
+        most = by;
+        *normal = turned;
+    }
+    return most;
+}
+
+double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal) {
+    if (f->contacts[part].n == 0) return own_distance(f, part, p, far, normal);
+    Vec3 n;
+    double d = own_distance(f, part, p, far, &n);
+    if (d >= far) return d;
+    d += give_way(f, part, p, d, &n);
+    if (normal) *normal = n;
+    return d;
+}
+
+/* Do the two come nearer than the room for cloth? Asked of the vertices of the first. */
+static bool is_near(const BodyFrame *f, int a, int b) {
+    const BodyPart *part = &f->body->part[a];
+    double room = YIELD_ROOM * scale_of(f);
+    for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++)
+        if (own_distance(f, b, f->position[v], room, NULL) < room) return true;
+    return false;
+}
+
+static bool boxes_near(const Box *a, const Box *b, double room) {
+    return a->low.x - b->high.x < room && b->low.x - a->high.x < room && a->low.y - b->high.y < room &&
+           b->low.y - a->high.y < room && a->low.z - b->high.z < room && b->low.z - a->high.z < room;
+}
+
+static void find_contacts(BodyFrame *f) {
+    const Body *body = f->body;
+    for (int p = 0; p < body->nparts; p++) f->contacts[p].n = 0;
+    for (int a = 0; a < body->nparts; a++)
+        for (int b = a + 1; b < body->nparts; b++) {
+            Role of_a = body->part[a].role, of_b = body->part[b].role;
+            Contacts *ca = &f->contacts[a], *cb = &f->contacts[b];
+            if (!yield_concerns(of_a, of_b) || ca->n == CONTACTS_MAX || cb->n == CONTACTS_MAX ||
+                !boxes_near(&f->box[a], &f->box[b], YIELD_ROOM * scale_of(f)) ||
+                !(is_near(f, a, b) || is_near(f, b, a)))
+                continue;
+            yield_contact(of_a, of_b, scale_of(f), &ca->contact[ca->n], &cb->contact[cb->n]);
+            ca->contact[ca->n++].other = b;
+            cb->contact[cb->n++].other = a;
+        }
+}
+
+/* How far a point of a part's skin goes inwards along its normal until what the part gives way there
+   is made up for: the first such place, by steps, bisection and a chord. *n becomes the normal there. */
+static double way_in(const BodyFrame *f, int p, Vec3 skin, double most, Vec3 *n) {
+    enum { STEPS = 6, HALVINGS = 4 };
+    Vec3 inwards = vec_scale(*n, -1);
+    double level = own_distance(f, p, skin, INFINITY, n);
+    double out = 0, in = 0, before = body_frame_distance(f, p, skin, INFINITY, NULL) - level, here = before;
+    if (before <= 0) return 0;
+    for (int k = 1; here > 0; k++) {
+        if (k > STEPS) return most;
+        out = in;
+        before = here;
+        in = most * k / STEPS;
+        here = body_frame_distance(f, p, vec_mad(skin, inwards, in), INFINITY, n) - level;
+    }
+    for (int k = 0; k < HALVINGS; k++) {
+        double middle = 0.5 * (out + in);
+        double gap = body_frame_distance(f, p, vec_mad(skin, inwards, middle), INFINITY, n) - level;
+        *(gap > 0 ? &out : &in) = middle;
+        *(gap > 0 ? &before : &here) = gap;
+    }
+    return out + (in - out) * before / (before - here);
+}
+
+/* Moves the skin of a part to where it has given way; never farther than the most that it gives. */
+static void yield_skin(BodyFrame *f, int p) {
+    const BodyPart *part = &f->body->part[p];
+    double most = 0;
+    for (int k = 0; k < f->contacts[p].n; k++) most = fmax(most, f->contacts[p].contact[k].most);
+    for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++) {
+        Vec3 n = f->normal[v];
+        double way = way_in(f, p, f->position[v], most, &n);
+        if (way <= 0) continue;
+        f->position[v] = vec_mad(f->position[v], f->normal[v], -way);
+        f->normal[v] = n;
+    }
 }
 
 void body_frame_pose(BodyFrame *f, const Pose *pose) {
@@ -31,26 +137,25 @@ void body_frame_pose(BodyFrame *f, const Pose *pose) {
     const Body *b = f->body;
     f->pose = *pose;
     body_pose(b, pose, f->position, f->normal);
-    for (int v = 0; v < b->skin.nvertices; v++) {
-        Vec3 p = vec_scale(f->position[v], f->unit);
-        f->position[v] = mesh_snap_point(p);
-    }
     for (int p = 0; p < b->nparts; p++) {
         const BodyPart *part = &b->part[p];
         Rigid to_world = rigid_mul(pose->bone[part->role], part->frame);
         f->to_world[p] = to_world.r;
         f->to_part[p] = rigid_inverse(to_world);
         find_box(f, p);
+    }
+    find_contacts(f);
+    for (int p = 0; p < b->nparts; p++)
+        if (f->contacts[p].n > 0) yield_skin(f, p);
+    for (int v = 0; v < b->skin.nvertices; v++) {
+        Vec3 p = vec_scale(f->position[v], f->unit);
+        f->position[v] = mesh_snap_point(p);
+    }
+    for (int p = 0; p < b->nparts; p++) {
+        const BodyPart *part = &b->part[p];
         crossing_build_edges(&f->edges[p], f->position, b->skin.edge + part->first_edge, part->nedges);
         crossing_build_triangles(&f->triangles[p], f->position, b->skin.triangle + part->first_triangle,
                                  part->ntriangles);
     }
     f->seconds = clock_seconds() - start;
-}
-
-double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal) {
-    if (body_frame_far(f, part, p, far)) return far;
-    double d = body_distance(&f->body->part[part], rigid_apply(f->to_part[part], p), far, normal);
-    if (normal && d < far) *normal = mat_apply(f->to_world[part], *normal);
-    return d;
 }

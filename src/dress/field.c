@@ -24,6 +24,11 @@ void field_forget(Field *f) {
     memset(f->offset, 0, (size_t)f->lattice->nplaces * sizeof *f->offset);
 }
 
+void field_copy(const Field *from, Field *to) {
+    memcpy(to->displacement, from->displacement, (size_t)from->start[LATTICE_LEVELS] * sizeof *to->displacement);
+    memcpy(to->offset, from->offset, (size_t)from->lattice->nplaces * sizeof *to->offset);
+}
+
 /* One carried vector; false once it is no longer felt. */
 static bool carry(Vec3 *d, Mat3 turn, double fade, double felt) {
     if (field_is_zero(*d)) return false;
@@ -44,19 +49,6 @@ void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leave
     f->pelvis = pelvis;
 }
 
-void field_owner(const Lattice *l, int place, int *patch, int *i, int *j) {
-    int n = l->side + 1, o = l->owner[place];
-    *patch = o / (n * n);
-    *i = o / n % n;
-    *j = o % n;
-}
-
-Vec3 field_global(const Lattice *l, const Patch *root, int place) {
-    int patch, i, j;
-    field_owner(l, place, &patch, &i, &j);
-    return bezier_weighted(&root[patch], l->basis[i], l->basis[j]);
-}
-
 unsigned field_levels(const Field *f) {
     unsigned used = 0;
     for (int level = 0; level <= f->lattice->depth; level++)
@@ -70,7 +62,7 @@ Vec3 field_at(const Field *f, unsigned levels, int place) {
     int patch, i, j, vertex[4];
     double weight[4];
     Vec3 d = {0, 0, 0};
-    field_owner(l, place, &patch, &i, &j);
+    lattice_owner(l, place, &patch, &i, &j);
     for (int level = 0; levels >> level; level++) {
         if (!(levels >> level & 1)) continue;
         lattice_weights(l, level, patch, i, j, vertex, weight, NULL, NULL);
@@ -90,7 +82,7 @@ Vec3 field_limit(Vec3 d, double cap, bool *capped) {
 static Vec3 analytic_normal(const Field *f, const Patch *root, unsigned levels, int place) {
     const Lattice *l = f->lattice;
     int patch, i, j, id[4];
-    field_owner(l, place, &patch, &i, &j);
+    lattice_owner(l, place, &patch, &i, &j);
     Vec3 du = bezier_weighted(&root[patch], l->basis_slope[i], l->basis[j]);
     Vec3 dw = bezier_weighted(&root[patch], l->basis[i], l->basis_slope[j]);
     for (int level = 0; levels >> level; level++) {

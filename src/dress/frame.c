@@ -9,6 +9,8 @@
                 what is found asks for more distance there, and so on to a cap */
 #include "dress/frame.h"
 
+#include <limits.h>
+
 #include "base/clock.h"
 #include "dress/follow.h"
 #include "dress/literal.h"
@@ -19,6 +21,7 @@ enum { DETAIL_DEFAULT = 8, DEPTH_DEFAULT = 2 };
 /* Rounds of asking for more distance; every third time the whole surface gives way, not only the
    vertices that were asked. */
 enum { ROUNDS_MAX = 9, SOLVE_EVERY = 3 };
+static const double HEADWAY = 0.7;  /* of the bad vertices may be left after that, or it is given up */
 static const double RAISE = 0.0015; /* metres of clearance added where an edge still crosses, on 1.70 m */
 
 struct Dresser {
@@ -29,13 +32,12 @@ struct Dresser {
     Patch *root;
     Classifier classifier;
     Leaves by_rule, leaves; /* as the classification found them; as the solver refined them further */
-    Leaves grid;         /*  what is tessellated under a fixed topology */
+    Leaves grid;            /*  what is tessellated under a fixed topology */
     Sheet sheet;
     Push push;
     Tester tester;
     Literal literal;
     Vec3 *position, *normal; /* of the written mesh */
-    unsigned *own;           /* per vertex: parts that must not show */
     double *u, *w;
     MeshGroup *group;
     int ngroups, *group_of; /* of every patch */
@@ -70,21 +72,22 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
         !follow_reserve(&d->follower, &d->fit, figure, body, arena, e) ||
         !lattice_build(&d->fit, detail, depth, arena, &d->lattice, e) ||
         !classifier_reserve(&d->classifier, &d->lattice, arena, e) ||
-        !leaves_reserve(&d->by_rule, &d->lattice, arena, e) ||
-        !leaves_reserve(&d->leaves, &d->lattice, arena, e) || !leaves_reserve(&d->grid, &d->lattice, arena, e) ||
-        !sheet_reserve(&d->sheet, &d->lattice, arena, e) || !push_reserve(&d->push, &d->lattice, arena, e) ||
-        !make_groups(d, arena, e))
+        !leaves_reserve(&d->by_rule, &d->lattice, arena, e) || !leaves_reserve(&d->leaves, &d->lattice, arena, e) ||
+        !leaves_reserve(&d->grid, &d->lattice, arena, e) || !sheet_reserve(&d->sheet, &d->lattice, arena, e) ||
+        !push_reserve(&d->push, &d->lattice, arena, e) || !make_groups(d, arena, e))
         return false;
     int triangles = 2 * d->fit.npatches * d->lattice.side * d->lattice.side, places = d->lattice.nplaces;
     d->root = ARENA_NEW(arena, Patch, d->fit.npatches, e);
     d->position = ARENA_NEW(arena, Vec3, places, e);
     d->normal = ARENA_NEW(arena, Vec3, places, e);
-    d->own = ARENA_NEW(arena, unsigned, places, e);
     d->u = ARENA_NEW(arena, double, places, e);
     d->w = ARENA_NEW(arena, double, places, e);
-    if (!d->root || !d->position || !d->normal || !d->own || !d->u || !d->w) return false;
+    if (!d->root || !d->position || !d->normal || !d->u || !d->w) return false;
     if (!tester_reserve(&d->tester, 3 * triangles, triangles, arena, e)) return false;
     leaves_fill(&d->grid, depth);
+    Pose rest = figure_rest_pose();
+    follow_pose(&d->follower, &rest, d->root);
+    push_bind(&d->push, d->root);
     if (options->method == METHOD_PAPER && !literal_reserve(&d->literal, &d->lattice, body, arena, e)) return false;
     *out = d;
     return true;
@@ -94,79 +97,112 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
 static void snap_points(Dresser *d, double unit) {
     for (int v = 0; v < d->sheet.nvertices; v++) {
         Vec3 p = vec_scale(d->push.point[v], unit);
-        d->own[v] = d->lattice.collide[d->sheet.place[v]];
         d->position[v] = mesh_snap_point(p);
     }
     tester_build(&d->tester, d->position, d->sheet.edge, d->sheet.nedges, d->sheet.triangle, d->sheet.ntriangles,
-                 d->own);
+                 d->fit.collide);
 }
 
-/* Tests the mesh as it would be written: what crosses the garment's colliders, and, where nothing
-   does, what lies inside them. Vertices that must not be are in d->tester.bad. */
-static void test_mesh(Dresser *d, const BodyFrame *body, Residual *own, Residual *other, CrossingCount *count) {
-    *own = *other = (Residual){0};
+/* What is wrong with the mesh as it would be written; vertices that must not be where they are stand in
+   d->tester.bad. */
+typedef struct {
+    Residual own, other;
+} Wrong;
+
+static Wrong test_mesh(Dresser *d, const BodyFrame *body, CrossingCount *count) {
+    Wrong w = {0};
     snap_points(d, body->unit);
-    tester_cross(&d->tester, body, d->fit.collide, own, other, count);
-    if (!d->tester.nbad) tester_inside(&d->tester, body, d->position, d->sheet.nvertices, own, other);
+    tester_cross(&d->tester, body, d->fit.collide | d->fit.outside, &w.own, &w.other, count);
+    tester_inside(&d->tester, body, d->position, d->sheet.nvertices, &w.own, &w.other);
+    return w;
+}
+
+static int total(const Residual *r) { return r->edges + r->cloth + r->inside; }
+
+/* Parts that the garment is worn over count first. */
+static bool is_better(const Wrong *a, const Wrong *b) {
+    int own = total(&a->own) - total(&b->own);
+    return own < 0 || (own == 0 && total(&a->other) < total(&b->other));
 }
 
 /* One attempt: pushes, tests the mesh, asks for more distance round everything that still crosses
-   a collider of its own, until nothing does or a cap. Returns how many vertices are left that
-   must not be where they are. */
-static int attempt(Dresser *d, const BodyFrame *body, FrameStats *stats, PushResult *result, Residual *own,
-                   Residual *other, CrossingCount *count) {
+   a part, until nothing does, or nothing gets better, or a cap. */
+static Wrong attempt(Dresser *d, const BodyFrame *body, FrameStats *stats, PushResult *result, CrossingCount *count) {
     double start = clock_seconds();
+    int before = INT_MAX;
     push_start(&d->push, d->root, &d->leaves, &d->sheet);
     push_solve(&d->push, body, &d->sheet, result);
     for (int round = 0;; round++) {
         double pushed = clock_seconds();
         stats->push_s += pushed - start;
-        test_mesh(d, body, own, other, count);
-        bool raised = false;
+        Wrong w = test_mesh(d, body, count);
+        bool raised = false, solve = round % SOLVE_EVERY == SOLVE_EVERY - 1;
         for (int k = 0; k < d->tester.nbad; k++) raised |= push_raise(&d->push, d->tester.bad[k], RAISE);
         start = clock_seconds();
         stats->test_s += start - pushed;
-        if (!raised || round == ROUNDS_MAX) return d->tester.nbad;
-        if (round % SOLVE_EVERY == SOLVE_EVERY - 1) push_solve(&d->push, body, &d->sheet, result);
+        bool hopeless = solve && (total(&w.own) == 0 || d->tester.nbad > HEADWAY * before);
+        if (!raised || round == ROUNDS_MAX || hopeless) return w;
+        if (solve) before = d->tester.nbad;
+        if (solve) push_solve(&d->push, body, &d->sheet, result);
         else push_settle(&d->push, body, &d->sheet, result);
     }
 }
 
-/* A second attempt, from the global shape alone, where the first leaves something; the better
-   one stays. */
-static void push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Residual *own, Residual *other,
-                          CrossingCount *count) {
-    PushResult result = {0};
-    int left = attempt(d, body, stats, &result, own, other, count);
-    if (left) {
-        push_afresh(&d->push);
-        if (attempt(d, body, stats, &result, own, other, count) >= left) {
-            push_back(&d->push);
-            test_mesh(d, body, own, other, count);
-        }
-        stats->capped = true;
+/* Splits to the deepest level round every vertex that must not be where it is. */
+static void split_where_bad(Dresser *d) {
+    const Lattice *l = &d->lattice;
+    int patch, i, j, last = (1 << l->depth) - 1;
+    for (int k = 0; k < d->tester.nbad; k++) {
+        lattice_owner(l, d->sheet.place[d->tester.bad[k]], &patch, &i, &j);
+        int a = i / l->detail, b = j / l->detail;
+        leaves_split(&d->leaves, patch, l->depth, a < last ? a : last, b < last ? b : last);
     }
+    tessellate(&d->sheet, d->options.fixed_topology ? &d->grid : &d->leaves);
+}
+
+/* Where an attempt leaves something, another is made from the global shape alone, with finer patches
+   there, and where that leaves something too, a last one without the limbs that come from outside. The
+   best stays. */
+static Wrong push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
+    PushResult result = {0};
+    d->push.limbs = ~0u;
+    Wrong best = attempt(d, body, stats, &result, count);
+    for (int again = 0; total(&best.own) > 0 && again < 2; again++) {
+        bool limbs = total(&best.other) > 0;
+        if (again == 1 && !limbs) break;
+        if (again == 1) d->push.limbs = d->fit.collide;
+        if (d->options.split == SPLIT_ADAPTIVE) split_where_bad(d);
+        push_keep(&d->push);
+        field_forget(&d->push.field);
+        Wrong w = attempt(d, body, stats, &result, count);
+        if (is_better(&w, &best)) {
+            best = w;
+            continue;
+        }
+        push_back(&d->push, &d->sheet);
+        best = test_mesh(d, body, count);
+    }
+    stats->capped = total(&best.own) + total(&best.other) > 0;
     push_measure(&d->push, body, &d->sheet, &result);
     stats->sweeps = result.sweeps;
     stats->active = result.active;
     stats->pinched = result.pinched;
     stats->displacement = result.displacement;
     stats->capped |= result.capped;
+    return best;
 }
 
-/* The parts that the garment does not collide with, and what lies inside any. */
-static void final_test(Dresser *d, const BodyFrame *body, const Vec3 *position, int nvertices, FrameStats *stats,
-                       Residual *own, Residual *other, CrossingCount *count) {
+/* The parts that nothing was done about, and what is left in all. */
+static void final_test(Dresser *d, const BodyFrame *body, Wrong *w, FrameStats *stats, CrossingCount *count) {
     double start = clock_seconds();
-    tester_cross(&d->tester, body, ~d->fit.collide, own, other, count);
-    tester_inside(&d->tester, body, position, nvertices, own, other);
-    stats->residual_edges = own->edges;
-    stats->residual_cloth = own->cloth;
-    stats->inside = own->inside;
-    stats->deepest = own->deepest;
-    stats->limb_edges = other->edges;
-    stats->limb_cloth = other->cloth;
-    stats->limb_inside = other->inside;
+    tester_cross(&d->tester, body, ~(d->fit.collide | d->fit.outside), &w->own, &w->other, count);
+    stats->residual_edges = w->own.edges;
+    stats->residual_cloth = w->own.cloth;
+    stats->inside = w->own.inside;
+    stats->deepest = w->own.deepest;
+    stats->limb_edges = w->other.edges;
+    stats->limb_cloth = w->other.cloth;
+    stats->limb_inside = w->other.inside;
     stats->test_s += clock_seconds() - start;
 }
 
@@ -225,30 +261,30 @@ static void split_by_rule(Dresser *d, const BodyFrame *body, FrameStats *stats, 
 }
 
 /* Nothing but the global deformation, tested like all. */
-static void rest_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, Residual *own, Residual *other,
-                          CrossingCount *count) {
+static Wrong rest_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
     double start = clock_seconds();
     push_start(&d->push, d->root, &d->leaves, &d->sheet);
     push_rest(&d->push, &d->sheet);
-    snap_points(d, body->unit);
-    *own = *other = (Residual){0};
-    tester_cross(&d->tester, body, d->fit.collide, own, other, count);
+    Wrong w = test_mesh(d, body, count);
     stats->test_s += clock_seconds() - start;
+    return w;
 }
 
 /* Split, move and repeat as the paper says, then the tests that all methods undergo. */
 static void frame_to_the_letter(Dresser *d, const BodyFrame *body, bool restart, Mesh *mesh, FrameStats *stats) {
     Literal *l = &d->literal;
     CrossingCount count = {0};
-    Residual own = {0}, other = {0};
+    Wrong w = {0};
     literal_frame(l, d->root, body, restart, d->options.split, stats);
     *mesh = l->mesh;
     set_groups(d, l->first_of_patch, mesh);
     double start = clock_seconds();
-    tester_build(&d->tester, mesh->position, mesh->edge, mesh->nedges, mesh->triangle, mesh->ntriangles, l->own);
-    tester_cross(&d->tester, body, d->fit.collide, &own, &other, &count);
+    tester_build(&d->tester, mesh->position, mesh->edge, mesh->nedges, mesh->triangle, mesh->ntriangles,
+                 d->fit.collide);
+    tester_cross(&d->tester, body, d->fit.collide | d->fit.outside, &w.own, &w.other, &count);
+    tester_inside(&d->tester, body, mesh->position, mesh->nvertices, &w.own, &w.other);
     stats->test_s += clock_seconds() - start;
-    final_test(d, body, mesh->position, mesh->nvertices, stats, &own, &other, &count);
+    final_test(d, body, &w, stats, &count);
     stats->pairs_all += count.pairs_all;
     stats->pairs_tested += count.pairs_tested;
 }
@@ -271,9 +307,8 @@ void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, M
     tessellate(&d->sheet, d->options.fixed_topology ? &d->grid : &d->leaves);
     stats->mesh_s = clock_seconds() - start;
 
-    Residual own, other;
-    (is_global ? rest_and_test : push_and_test)(d, body, stats, &own, &other, &found.count);
-    final_test(d, body, d->position, d->sheet.nvertices, stats, &own, &other, &found.count);
+    Wrong w = (is_global ? rest_and_test : push_and_test)(d, body, stats, &found.count);
+    final_test(d, body, &w, stats, &found.count);
 
     start = clock_seconds();
     fill_mesh(d, mesh);

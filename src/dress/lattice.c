@@ -86,7 +86,13 @@ static void mark_places(Lattice *l) {
                 if (!*collide) *collide = UNSHARED;
                 if (*collide & UNSHARED) *collide |= l->fit->patch[p].collide;
             }
-    for (int place = 0; place < l->nplaces; place++) l->collide[place] &= ~UNSHARED;
+    for (int place = 0; place < l->nplaces; place++) {
+        l->collide[place] &= ~UNSHARED;
+        l->outside[place] = ~l->collide[place];
+    }
+    for (int p = 0; p < l->fit->npatches; p++)
+        for (int i = 0; i <= l->side; i++)
+            for (int j = 0; j <= l->side; j++) l->outside[*slot(l, p, i, j)] &= l->fit->patch[p].outside;
     for (int p = 0; p < l->fit->npatches; p++) {
         const FitPatch *patch = &l->fit->patch[p];
         for (int s = 0; s < 4; s++)
@@ -135,9 +141,8 @@ static void list_cells(const Lattice *l, LatticeLevel *level, int cells) {
 static LatticeStep step_at(int i, int stride, int cells) {
     int cell = i / stride < cells ? i / stride : cells - 1;
     double t = (double)(i - cell * stride) / stride, r = (double)(stride - (i - cell * stride)) / stride;
-    return (LatticeStep){cell,
-                         {1 - t * t * (3 - 2 * t), 1 - r * r * (3 - 2 * r)},
-                         {-6 * t * (1 - t) * cells, 6 * r * (1 - r) * cells}};
+    return (LatticeStep){
+        cell, {1 - t * t * (3 - 2 * t), 1 - r * r * (3 - 2 * r)}, {-6 * t * (1 - t) * cells, 6 * r * (1 - r) * cells}};
 }
 
 static bool build_level(Lattice *l, int number, int *of_place, Arena *arena, Error *e) {
@@ -174,11 +179,13 @@ bool lattice_build(const Fit *fit, int detail, int depth, Arena *arena, Lattice 
     out->place = ARENA_NEW(arena, int, most, e);
     out->owner = ARENA_NEW(arena, int, most, e);
     out->collide = ARENA_NEW(arena, unsigned, most, e);
+    out->outside = ARENA_NEW(arena, unsigned, most, e);
     out->pinned = ARENA_NEW(arena, bool, most, e);
     out->basis = arena_array(arena, (size_t)n, sizeof *out->basis, e);
     out->basis_slope = arena_array(arena, (size_t)n, sizeof *out->basis_slope, e);
     int *scratch = ARENA_NEW(arena, int, most > fit->npoints ? most : fit->npoints, e);
-    if (!out->place || !out->owner || !out->collide || !out->pinned || !out->basis || !out->basis_slope || !scratch)
+    if (!out->place || !out->owner || !out->collide || !out->outside || !out->pinned || !out->basis ||
+        !out->basis_slope || !scratch)
         return false;
     number_places(out, scratch);
     mark_places(out);
@@ -201,4 +208,17 @@ void lattice_weights(const Lattice *l, int number, int patch, int i, int j, int 
         if (du) du[k] = u->slope[x] * w->weight[y];
         if (dw) dw[k] = u->weight[x] * w->slope[y];
     }
+}
+
+void lattice_owner(const Lattice *l, int place, int *patch, int *i, int *j) {
+    int n = l->side + 1, o = l->owner[place];
+    *patch = o / (n * n);
+    *i = o / n % n;
+    *j = o % n;
+}
+
+Vec3 lattice_point(const Lattice *l, const Patch *root, int place) {
+    int patch, i, j;
+    lattice_owner(l, place, &patch, &i, &j);
+    return bezier_weighted(&root[patch], l->basis[i], l->basis[j]);
 }

@@ -23,7 +23,6 @@ bool literal_reserve(Literal *l, const Lattice *lattice, const Body *body, Arena
     *l = (Literal){.lattice = lattice};
     Mesh *m = &l->mesh;
     l->leaf = ARENA_NEW(arena, LiteralLeaf, leaves, e);
-    l->own = ARENA_NEW(arena, unsigned, vertices, e);
     l->facet = ARENA_NEW(arena, Triangle, 2 * n * n, e);
     l->point = ARENA_NEW(arena, Vec3, (n + 1) * (n + 1), e);
     l->side = ARENA_NEW(arena, double, most, e);
@@ -34,7 +33,7 @@ bool literal_reserve(Literal *l, const Lattice *lattice, const Body *body, Arena
     m->triangle = ARENA_NEW(arena, Triangle, leaves * 2 * n * n, e);
     m->edge = ARENA_NEW(arena, Edge, leaves * (3 * n * n + 2 * n), e);
     l->first_of_patch = ARENA_NEW(arena, int, lattice->fit->npatches + 1, e);
-    if (!l->leaf || !l->own || !l->first_of_patch || !l->facet || !l->point || !l->side) return false;
+    if (!l->leaf || !l->first_of_patch || !l->facet || !l->point || !l->side) return false;
     if (!m->position || !m->normal || !m->u || !m->w || !m->triangle || !m->edge) return false;
     facets_of_cell(n, 0, l->facet);
     return true;
@@ -186,7 +185,6 @@ static void mesh_leaf(Literal *l, const LiteralLeaf *leaf, double unit) {
             m->normal[v] = vec_scale(bezier_normal(&leaf->patch, u, w), of->flip ? -1 : 1);
             m->u[v] = (double)a * stride / lattice->side;
             m->w[v] = (double)b * stride / lattice->side;
-            l->own[v] = lattice->collide[lattice_place(lattice, leaf->cell.patch, a * stride, b * stride)];
             if (i < n) m->edge[m->nedges++] = (Edge){{v, v + n + 1}};
             if (j < n) m->edge[m->nedges++] = (Edge){{v, v + 1}};
             if (i < n && j < n) m->edge[m->nedges++] = (Edge){{v, v + n + 2}};

@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Caps and tolerances, metres on a figure of 1.70 m where they are lengths. */
-enum { SWEEPS_MAX = 30, STALL = 5, ROUNDS_MAX = 3, SETTLES_MAX = 4 };
+enum { SWEEPS_MAX = 30, STALL = 5, ROUNDS_MAX = 3, SETTLES_MAX = 4, STEPS_OUT = 6 };
 static const double REACH = 0.04;      /* vertices farther from the body are not swept */
 static const double SLACK = 0.1;       /* share of the clearance that may be missing after sweeps */
 static const double LIPSCHITZ = 0.8;   /* distances are of first order: trust this share of a slack */
@@ -19,7 +19,10 @@ static const double PIN_GIVES = 0.2;   /* a pinned level vertex moves this share
 static const double NORM_MIN = 0.1;    /* a sample that level vertices hardly move must not fling them */
 static const double BUDGET = 0.02;     /* a sample may issue twice its first violation and this */
 static const double HEADWAY = 0.6;     /* pushes that get this share of their length nowhere are a pinch */
-static const double RAISE_MAX = 0.02;  /* most extra clearance */
+static const double OPPOSITE = -0.2;   /* cosine: normals of parts between which cloth is squeezed */
+static const double WRONG_SIDE = 0.5;  /* cosine to the side at rest below which the normal is bent towards it */
+static const double ACROSS = 0.4;      /* sine: limbs that point at the body more than that are left by their normal */
+static const double RAISE_MAX = 0.015; /* most extra clearance */
 static const double OFFSET_MAX = 0.03; /* of a single vertex: more would be a spike */
 
 bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
@@ -27,13 +30,17 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     if (!field_reserve(&p->field, lattice, arena, e) || !field_reserve(&p->kept, lattice, arena, e)) return false;
     int places = lattice->nplaces;
     p->active = ARENA_NEW(arena, bool, p->field.start[LATTICE_LEVELS], e);
-    p->kept_point = ARENA_NEW(arena, Vec3, places, e);
+    p->rest = ARENA_NEW(arena, Vec3, places, e);
     p->global = ARENA_NEW(arena, Vec3, places, e);
     p->point = ARENA_NEW(arena, Vec3, places, e);
     p->clearance = ARENA_NEW(arena, double, places, e);
     p->sample = ARENA_NEW(arena, PushSample, places, e);
     p->raised = ARENA_NEW(arena, int, places, e);
-    return p->active && p->kept_point && p->global && p->point && p->clearance && p->sample && p->raised;
+    return p->active && p->rest && p->global && p->point && p->clearance && p->sample && p->raised;
+}
+
+void push_bind(Push *p, const Patch *root) {
+    for (int place = 0; place < p->lattice->nplaces; place++) p->rest[place] = lattice_point(p->lattice, root, place);
 }
 
 /* A level vertex may move where all cells round it are split to its level. */
@@ -73,9 +80,10 @@ static Vec3 sample_point(const Push *p, const Sheet *sheet, const PushSample *s)
     return displaced(p, sheet, s->vertex, d);
 }
 
-/* Parts of the garment's own colliders at a place that lie within `far` of x. */
+/* Parts that a place keeps out of, those that it is worn over and those that come from outside, which lie
+   within `far` of x. */
 static unsigned parts_near(const Push *p, const BodyFrame *body, int place, Vec3 x, double far) {
-    unsigned near = 0, collide = p->lattice->collide[place];
+    unsigned near = 0, collide = p->lattice->collide[place] | (p->lattice->outside[place] & p->limbs);
     for (int k = 0; k < body->body->nparts; k++)
         if (collide & part_bit(body, k) && body_frame_distance(body, k, x, far, NULL) < far) near |= 1u << k;
     return near;
@@ -87,7 +95,7 @@ static void add_sample(Push *p, const Sheet *sheet, int vertex, unsigned near) {
     *s = (PushSample){.vertex = vertex, .near = near, .budget = -1};
     int patch, i, j, id[4];
     double weight[4];
-    field_owner(l, sheet->place[vertex], &patch, &i, &j);
+    lattice_owner(l, sheet->place[vertex], &patch, &i, &j);
     for (int level = 0; level <= l->depth; level++) {
         lattice_weights(l, level, patch, i, j, id, weight, NULL, NULL);
         for (int k = 0; k < 4; k++) {
@@ -99,7 +107,12 @@ static void add_sample(Push *p, const Sheet *sheet, int vertex, unsigned near) {
             s->share[s->n++] = gives * weight[k];
             s->norm2 += gives * weight[k] * weight[k];
         }
+        if (level == 0) {
+            s->fine = s->n;
+            s->fine_norm2 = -s->norm2;
+        }
     }
+    s->fine_norm2 += s->norm2;
 }
 
 static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
@@ -112,10 +125,14 @@ static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
     }
 }
 
-/* Moves a sample by `depth` along n with the least change of the unknowns. */
-static void project(Push *p, const PushSample *s, Vec3 n, double depth, PushResult *result) {
-    double step = depth / fmax(s->norm2, NORM_MIN);
-    for (int k = 0; k < s->n; k++) {
+/* Moves a sample by `depth` along n with the least change of the unknowns. What comes from outside only
+   dents the cloth: it leaves the top level alone, where there is another, and what is pinned. */
+static void project(Push *p, const PushSample *s, bool is_worn, Vec3 n, double depth, PushResult *result) {
+    bool all = is_worn || s->fine == s->n;
+    double step = depth / fmax(all ? s->norm2 : s->fine_norm2, NORM_MIN);
+    for (int k = all ? 0 : s->fine; k < s->n; k++) {
+        bool is_pinned = s->share[k] < s->weight[k];
+        if (is_pinned && !is_worn) continue;
         Vec3 *d = &p->field.displacement[s->id[k]];
         *d = field_limit(vec_mad(*d, n, step * s->share[k]), p->field.cap, &result->capped);
     }
@@ -127,25 +144,105 @@ static bool is_pinched(const Push *p, const PushSample *s) {
     return s->spent > s->budget || (s->spent > BUDGET * p->field.scale && vec_len(s->net) < HEADWAY * s->spent);
 }
 
+/* The distance to ask for from a part with outward normal n at x, `distance` away from it: the
+   clearance, but where another part stands opposite no more than half the room between the two.
+   Where there is none, a part that comes from outside asks for nothing. */
+static double room_for(const BodyFrame *body, unsigned near, unsigned worn, int part, Vec3 x, double clearance,
+                       double distance, Vec3 n) {
+    double far = 2 * clearance - distance;
+    unsigned opposite = 0;
+    for (int other = 0; near >> other; other++) {
+        Vec3 m;
+        if (other == part || !(near >> other & 1)) continue;
+        double d = body_frame_distance(body, other, x, far, &m);
+        if (d >= far || vec_dot(n, m) >= OPPOSITE) continue;
+        far = d;
+        opposite = part_bit(body, other);
+    }
+    if (distance + far > 0) return 0.5 * (distance + far);
+    return opposite & worn && !(part_bit(body, part) & worn) ? distance : clearance;
+}
+
+/* The middle of a part's section at the height of x; world. */
+static Vec3 axis_at(const BodyFrame *body, int part, Vec3 x) {
+    Vec3 q = rigid_apply(body->to_part[part], x);
+    Section c = body_section_at(&body->body->part[part], q.y, NULL);
+    return rigid_unapply(body->to_part[part], vec(c.x, c.at, c.z));
+}
+
+/* The side of a part on which x belongs; unit. The nearest way out of a limb that lies across the cloth may
+   lead to the other one. A part that the place is worn over has it where it was in the bind pose, as
+   seen from its axis; one that comes from outside has it where the nearest part is that it is worn
+   over. */
+static Vec3 side_of(const Push *p, const BodyFrame *body, int place, int part, Vec3 x, Vec3 normal) {
+    const Body *b = body->body;
+    if (p->lattice->collide[place] & part_bit(body, part)) {
+        Vec3 q = rigid_unapply(b->part[part].frame, p->rest[place]);
+        Section c = body_section_at(&b->part[part], q.y, NULL);
+        return mat_apply(body->to_world[part], vec_unit_or(vec(q.x - c.x, 0, q.z - c.z), vec(1, 0, 0)));
+    }
+    int worn = part;
+    double nearest = INFINITY;
+    for (int k = 0; k < b->nparts; k++) {
+        if (!(p->lattice->collide[place] & part_bit(body, k))) continue;
+        double d = vec_dist(axis_at(body, k, x), x);
+        if (d < nearest) worn = k;
+        nearest = fmin(nearest, d);
+    }
+    Vec3 toward = vec_unit_or(vec_sub(axis_at(body, worn, x), axis_at(body, part, x)), normal);
+    Vec3 along = mat_column(body->to_world[part], 1), across = vec_mad(toward, along, -vec_dot(toward, along));
+    return vec_len(across) > ACROSS ? vec_unit_or(across, normal) : normal; /* never the whole length of an arm */
+}
+
+/* A foot stands across the leg of trousers: it has no side along it. */
+static bool has_side(Role role) {
+    return role != ROLE_LEFT_FOOT && role != ROLE_RIGHT_FOOT && role != ROLE_LEFT_TOE && role != ROLE_RIGHT_TOE;
+}
+
+/* How far x must go along *n, the outward normal, to be `wanted` away from a part that is
+   `distance` away. Turns *n to the side of the part where the place belongs: a little more the farther
+   it is off for a part that the place is worn over, all of the way for one from outside. */
+static double way_out(const Push *p, const BodyFrame *body, int place, int part, Vec3 x, double wanted, double distance,
+                      Vec3 *n) {
+    bool is_worn = p->lattice->collide[place] & part_bit(body, part);
+    double way = wanted - distance;
+    if (is_worn && !has_side(body->body->part[part].role)) return way;
+    Vec3 side = side_of(p, body, place, part, x, *n);
+    double turn = 2 * (1 - smoothstep(-WRONG_SIDE, WRONG_SIDE, vec_dot(*n, side)));
+    if (is_worn && turn <= 0) return way;
+    *n = is_worn ? vec_unit_or(vec_mad(*n, side, turn), side) : side;
+    for (int k = 0; k < STEPS_OUT; k++) {
+        double d = body_frame_distance(body, part, vec_mad(x, *n, way), wanted, NULL);
+        if (d >= wanted - SLACK * wanted) break;
+        way += wanted - d;
+    }
+    return way;
+}
+
 /* Pushes one sample out of the parts it is too near to. Distances change no faster than the
    point moves, so a sample that has been found clear is left alone until it has used up its
    slack. Returns the depth of the worst violation that was acted on. */
 static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, PushSample *s, PushResult *result) {
+    if (s->budget >= 0 && is_pinched(p, s)) return 0; /* it has had its say */
     double clearance = p->clearance[s->vertex], most = 0, slack = INFINITY;
+    unsigned worn = p->lattice->collide[sheet->place[s->vertex]];
     Vec3 x = sample_point(p, sheet, s);
     if (s->slack > 0 && vec_dist(x, s->seen) < s->slack) return 0;
     s->seen = x;
     for (int part = 0; s->near >> part; part++) {
         if (!(s->near >> part & 1)) continue;
         Vec3 n;
-        double depth = clearance - body_frame_distance(body, part, x, clearance + REACH * p->field.scale, &n);
+        double distance = body_frame_distance(body, part, x, clearance + REACH * p->field.scale, &n);
+        double depth = clearance - distance;
         slack = fmin(slack, SLACK * clearance - depth);
         if (depth <= SLACK * clearance) continue;
+        double wanted = room_for(body, s->near, worn, part, x, clearance, distance, n);
+        if (wanted - distance <= SLACK * clearance) continue;
+        depth = way_out(p, body, sheet->place[s->vertex], part, x, wanted, distance, &n);
         if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->field.scale;
-        if (is_pinched(p, s)) continue; /* it has had its say */
         s->spent += depth;
         s->net = vec_mad(s->net, n, depth);
-        project(p, s, n, depth, result);
+        project(p, s, worn & part_bit(body, part), n, depth, result);
         x = sample_point(p, sheet, s);
         most = fmax(most, depth);
     }
@@ -186,9 +283,13 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
         for (int part = 0; near >> part; part++) {
             if (!(near >> part & 1)) continue;
             Vec3 n;
-            double depth =
-                p->clearance[vertex] - body_frame_distance(body, part, p->point[vertex], p->clearance[vertex], &n);
-            if (depth <= SLACK * p->clearance[vertex]) continue;
+            double clearance = p->clearance[vertex],
+                   distance = body_frame_distance(body, part, p->point[vertex], clearance, &n);
+            if (clearance - distance <= SLACK * clearance) continue;
+            double depth = room_for(body, near, p->lattice->collide[sheet->place[vertex]], part, p->point[vertex],
+                                    clearance, distance, n) -
+                           distance;
+            if (depth <= SLACK * clearance) continue;
             Vec3 longer = field_limit(vec_mad(*o, n, depth), OFFSET_MAX * p->field.scale, capped);
             p->point[vertex] = vec_add(p->point[vertex], vec_sub(longer, *o));
             *o = longer;
@@ -202,7 +303,7 @@ void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *s
     p->nraised = 0;
     find_active(p, leaves);
     for (int v = 0; v < sheet->nvertices; v++) {
-        p->global[v] = field_global(p->lattice, root, sheet->place[v]);
+        p->global[v] = lattice_point(p->lattice, root, sheet->place[v]);
         p->clearance[v] = PUSH_MARGIN * p->field.scale;
     }
 }
@@ -239,19 +340,11 @@ void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult 
     }
 }
 
-void push_back(Push *p) {
-    Field field = p->field;
-    Vec3 *point = p->point;
-    p->field = p->kept;
-    p->point = p->kept_point;
-    p->kept = field;
-    p->kept_point = point;
-}
+void push_keep(Push *p) { field_copy(&p->field, &p->kept); }
 
-void push_afresh(Push *p) {
-    push_back(p);
-    p->field.pelvis = p->kept.pelvis;
-    field_forget(&p->field);
+void push_back(Push *p, const Sheet *sheet) {
+    field_copy(&p->kept, &p->field);
+    find_points(p, sheet);
 }
 
 void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {

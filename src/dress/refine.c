@@ -139,6 +139,21 @@ static void open_corners(const Classifier *c, int level, int ncells, Leaves *lea
         }
 }
 
+/* Lets the cloth give way to limbs that touch it from outside, which the rule knows nothing of: splits
+   the deepest cells that have a corner inside of one. */
+static void open_to_limbs(const Classifier *c, const Patch *root, const BodyFrame *body, Leaves *leaves) {
+    const Lattice *l = c->lattice;
+    int cells = 1 << l->depth, last = cells - 1;
+    for (int p = 0; p < l->fit->npatches; p++)
+        for (int a = 0; a <= cells; a++)
+            for (int b = 0; b <= cells; b++) {
+                int place = lattice_place(l, p, a * l->detail, b * l->detail);
+                unsigned outside = l->outside[place];
+                if (outside && any_inside(body, outside, (Vec3[1]){lattice_point(l, root, place)}, 1))
+                    leaves_split(leaves, p, l->depth, a < last ? a : last, b < last ? b : last);
+            }
+}
+
 static int all_cells(const Lattice *l, int level, LatticeCell *out) {
     int n = 0, cells = 1 << level;
     for (int p = 0; p < l->fit->npatches; p++)
@@ -155,6 +170,7 @@ void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule
     leaves_fill(by_rule, level);
     leaves_fill(leaves, level);
     test_cells(c, root, body, level, ncells, out);
+    if (rule == SPLIT_ADAPTIVE) open_to_limbs(c, root, body, leaves);
     out->leaves = ncells;
     out->depth = level;
     while (rule == SPLIT_ADAPTIVE && level < l->depth) {

@@ -16,32 +16,21 @@ bool tester_reserve(Tester *t, int edges, int triangles, Arena *arena, Error *e)
 }
 
 void tester_build(Tester *t, const Vec3 *position, const Edge *edge, int nedges, const Triangle *triangle,
-                  int ntriangles, const unsigned *own) {
+                  int ntriangles, unsigned own) {
     t->edge = edge;
     t->triangle = triangle;
     t->own = own;
     t->nbad = 0;
-    t->inside_known = false;
     crossing_build_edges(&t->edges, position, edge, nedges);
     crossing_build_triangles(&t->triangles, position, triangle, ntriangles);
 }
 
-/* Counts the listed pairs by whether the part must not show at all `corners` vertices of the
-   garment's item; pairs that the list could not hold count as bad. */
-static void sort_found(Tester *t, unsigned bit, bool is_triangle, int listed, int hits, int *own, int *other) {
+/* Appends the garment's corners of the listed pairs to the vertices that must not be where they are. */
+static void add_bad(Tester *t, bool is_triangle, int listed) {
     for (int k = 0; k < listed; k++) {
         const int *v = is_triangle ? t->triangle[t->found[k].triangle].v : t->edge[t->found[k].edge].v;
-        int corners = is_triangle ? 3 : 2;
-        unsigned all = bit;
-        for (int c = 0; c < corners; c++) all &= t->own[v[c]];
-        if (!all) {
-            ++*other;
-            continue;
-        }
-        ++*own;
-        for (int c = 0; c < corners && t->nbad < 3 * t->capacity; c++) t->bad[t->nbad++] = v[c];
+        for (int c = 0; c < (is_triangle ? 3 : 2) && t->nbad < 3 * t->capacity; c++) t->bad[t->nbad++] = v[c];
     }
-    *own += hits - listed;
 }
 
 void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other,
@@ -49,11 +38,13 @@ void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *ow
     for (int p = 0; p < body->body->nparts; p++) {
         unsigned bit = part_bit(body, p);
         if (!(parts & bit)) continue;
-        int before = count->hits, listed = crossing_find(&body->edges[p], &t->triangles, t->found, t->capacity, count);
-        sort_found(t, bit, true, listed, count->hits - before, &own->edges, &other->edges);
+        Residual *r = t->own & bit ? own : other;
+        int before = count->hits;
+        add_bad(t, true, crossing_find(&body->edges[p], &t->triangles, t->found, t->capacity, count));
+        r->edges += count->hits - before;
         before = count->hits;
-        listed = crossing_find(&t->edges, &body->triangles[p], t->found, t->capacity, count);
-        sort_found(t, bit, false, listed, count->hits - before, &own->cloth, &other->cloth);
+        add_bad(t, false, crossing_find(&t->edges, &body->triangles[p], t->found, t->capacity, count));
+        r->cloth += count->hits - before;
     }
 }
 
@@ -68,8 +59,6 @@ static void box_vertices(Tester *t, const Vec3 *position, int n, double to_metre
 
 void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own,
                    Residual *other) {
-    if (t->inside_known) return;
-    t->inside_known = true;
     double to_metres = 1 / body->unit;
     box_vertices(t, position, nvertices, to_metres);
     for (int p = 0; p < body->body->nparts; p++)
@@ -80,9 +69,9 @@ void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int n
             }
             double d = body_frame_distance(body, p, vec_scale(position[v], to_metres), 0, NULL);
             if (d >= 0) continue;
-            Residual *r = t->own[v] & part_bit(body, p) ? own : other;
+            Residual *r = t->own & part_bit(body, p) ? own : other;
             r->inside++;
             r->deepest = fmax(r->deepest, -d);
-            if (r == own && t->nbad < 3 * t->capacity) t->bad[t->nbad++] = v;
+            if (t->nbad < 3 * t->capacity) t->bad[t->nbad++] = v;
         }
 }

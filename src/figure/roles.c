@@ -24,6 +24,13 @@ static const Role required[] = {
 
 const char *role_name(Role role) { return (unsigned)role < ROLE_COUNT ? names[role] : "none"; }
 
+int role_limb(Role role) {
+    static const Role first[] = {ROLE_LEFT_CLAVICLE, ROLE_RIGHT_CLAVICLE, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH};
+    int limb = 0;
+    while (limb < 4 && role >= first[limb]) limb++;
+    return limb;
+}
+
 Role role_find(const char *name, int length) {
     for (int r = 0; r < ROLE_COUNT; r++)
         if ((int)strlen(names[r]) == length && memcmp(names[r], name, (size_t)length) == 0) return (Role)r;

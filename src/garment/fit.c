@@ -220,7 +220,9 @@ static void find_turns(Fit *f) {
 }
 
 /* The rows between which patches lie: row k of a panel and the next. */
-typedef struct { int panel, row, group; } Span;
+typedef struct {
+    int panel, row, group;
+} Span;
 
 static const FitCurve *span_curve(const Fit *f, const Span *s, int which) {
     return &f->curve[f->panel[s->panel].curve[s->row + which]];
@@ -231,7 +233,8 @@ static bool spans_touch(const Fit *f, const Span *a, const Span *b) {
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < 2; k++)
             if (span_curve(f, a, 0)->node[i] == span_curve(f, b, 0)->node[k] &&
-                span_curve(f, a, 1)->node[i] == span_curve(f, b, 1)->node[k]) return true;
+                span_curve(f, a, 1)->node[i] == span_curve(f, b, 1)->node[k])
+                return true;
     return false;
 }
 
@@ -369,11 +372,24 @@ static void face_outwards(Tailor *t, int p) {
         if (f->patch[k].panel == p) f->patch[k].flip = outward < 0;
 }
 
+static unsigned roles_outside(unsigned collide) {
+    unsigned limbs = 0, outside = 0;
+    for (int r = 0; r < ROLE_COUNT; r++)
+        if (collide >> r & 1) limbs |= 1u << role_limb((Role)r);
+    for (int r = 0; r < ROLE_COUNT; r++)
+        if (role_limb((Role)r) > 0 && !(limbs >> role_limb((Role)r) & 1)) outside |= 1u << r;
+    return outside;
+}
+
 /* A patch for which nothing is said meets every part that the garment names at all. */
 static void complete_colliders(Fit *f) {
     for (int p = 0; p < f->npatches; p++) f->collide |= f->patch[p].collide;
     for (int p = 0; p < f->npatches; p++)
         if (!f->patch[p].collide) f->patch[p].collide = f->collide;
+    for (int p = 0; p < f->npatches; p++) {
+        f->patch[p].outside = roles_outside(f->patch[p].collide);
+        f->outside |= f->patch[p].outside & ~f->collide;
+    }
 }
 
 bool fit_garment(const Garment *garment, const Figure *figure, const Body *body, Arena *arena, Fit *out, Error *e) {

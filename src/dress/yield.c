@@ -1,0 +1,62 @@
+/* Two parts A and B with signed distances a and b lack the room o = ROOM - a - b at a point. A
+   gives way by its share of it, B by the rest: a + s o and b + (1 - s) o add up to ROOM, so
+   wherever both may give way there is a gap that wide, and where nothing is lacking nothing
+   changes. It is a function of the pose alone: no state, no popping. */
+#include "dress/yield.h"
+
+/* How far the flesh of a role gives way, metres on 1.70 m: soft over belly, thigh and calf,
+   hardly at all over bone. */
+static double softness(Role role) {
+    switch (role) {
+    case ROLE_PELVIS: return 0.030;
+    case ROLE_SPINE: return 0.035;
+    case ROLE_CHEST: return 0.025;
+    case ROLE_NECK: return 0.008;
+    case ROLE_LEFT_UPPER_ARM:
+    case ROLE_RIGHT_UPPER_ARM: return 0.018;
+    case ROLE_LEFT_FOREARM:
+    case ROLE_RIGHT_FOREARM: return 0.012;
+    case ROLE_LEFT_HAND:
+    case ROLE_RIGHT_HAND: return 0.006;
+    case ROLE_LEFT_THIGH:
+    case ROLE_RIGHT_THIGH: return 0.035;
+    case ROLE_LEFT_SHIN:
+    case ROLE_RIGHT_SHIN: return 0.022;
+    case ROLE_LEFT_FOOT:
+    case ROLE_RIGHT_FOOT: return 0.006;
+    default: return 0.003;
+    }
+}
+
+static bool is_upper(Role r) {
+    return r == ROLE_LEFT_UPPER_ARM || r == ROLE_RIGHT_UPPER_ARM || r == ROLE_LEFT_THIGH || r == ROLE_RIGHT_THIGH;
+}
+
+bool yield_concerns(Role a, Role b) {
+    if (a > b) return yield_concerns(b, a);
+    if (role_limb(a) != role_limb(b)) return true;
+    return role_limb(a) > 0 && a != b && (b - a > 1 || is_upper(a));
+}
+
+/* Parts that meet at a joint of the body: at its outside they are one surface, and only where they
+   fold against each other do they press. */
+static bool share_joint(Role a, Role b) {
+    if (a > b) return share_joint(b, a);
+    return role_limb(a) == role_limb(b) ? b - a == 1 : role_limb(a) == 0 && is_upper(b);
+}
+
+void yield_contact(Role a, Role b, double scale, Contact *of_a, Contact *of_b) {
+    double soft_a = softness(a), soft_b = softness(b);
+    *of_a = (Contact){.share = soft_a / (soft_a + soft_b), .most = soft_a * scale, .folds = share_joint(a, b)};
+    *of_b = (Contact){.share = 1 - of_a->share, .most = soft_b * scale, .folds = of_a->folds};
+}
+
+double yield_by(const Contact *c, double scale, double distance, double other, Vec3 away, Vec3 *normal) {
+    static const double FACING = 0.6; /* cosine between a normal and the other's opposite: folded, all of the way */
+    double lacking = YIELD_ROOM * scale - distance - other, share = c->share;
+    if (lacking <= 0) return 0;
+    if (c->folds) share *= smoothstep(0, FACING, -vec_dot(*normal, away));
+    if (share * lacking >= c->most) return c->most;
+    *normal = vec_unit_or(vec_sub(vec_scale(*normal, 1 - share), vec_scale(away, share)), *normal);
+    return share * lacking;
+}

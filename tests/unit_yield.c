@@ -1,0 +1,144 @@
+/* Flesh that gives way: parts that press on each other leave room for cloth, and nothing else
+   changes. */
+#include "scene.h"
+
+/* The reference figure with both arms hanging so close that they press into the trunk. */
+static Pose arms_down(const Scene *s, double degrees) {
+    Pose p = figure_rest_pose();
+    for (int side = 0; side < 2; side++) {
+        Role arm = side ? ROLE_RIGHT_UPPER_ARM : ROLE_LEFT_UPPER_ARM;
+        Mat3 turn = mat_axis_angle(vec(0, 0, 1), (side ? degrees : -degrees) * PI / 180);
+        Rigid about = {turn, vec_sub(s->figure.start[arm], mat_apply(turn, s->figure.start[arm]))};
+        for (int r = (int)arm; r <= (int)arm + 2; r++) p.bone[r] = rigid_mul(about, p.bone[r]);
+    }
+    return p;
+}
+
+static int part_of(const Scene *s, Role role) { return s->body.of_role[role]; }
+
+static int contacts(const Scene *s) {
+    int n = 0;
+    for (int p = 0; p < s->body.nparts; p++) n += s->posed.contacts[p].n;
+    return n;
+}
+
+/* Skin that nothing comes near stays where the body file has it. */
+static void free_skin_stays(Scene *s) {
+    Pose pose = arms_down(s, 45);
+    body_frame_pose(&s->posed, &pose);
+    double worst = 0;
+    int stays = 0;
+    for (int p = 0; p < s->body.nparts; p++)
+        for (int k = 0; k < s->body.part[p].nvertices; k++) {
+            int v = s->body.part[p].first_vertex + k;
+            Vec3 rigid = rigid_apply(pose.bone[s->body.part[p].role], s->body.skin.position[v]);
+            bool near = false;
+            for (int q = 0; q < s->body.nparts; q++)
+                near |= q != p &&
+                        body_distance(&s->body.part[q], rigid_apply(s->posed.to_part[q], rigid), 1, NULL) < YIELD_ROOM;
+            if (near) continue;
+            stays++;
+            worst = fmax(worst, vec_dist(s->posed.position[v], rigid));
+        }
+    OK(stays > 1000 && worst < 2e-6, "%d vertices that nothing is near to stay (%.2g m off)", stays, worst);
+}
+
+/* Wherever two parts came nearer than the room, their distances add up to it; points at random. */
+static void room_is_made(Scene *s) {
+    Pose pose = arms_down(s, 45);
+    body_frame_pose(&s->posed, &pose);
+    OK(contacts(s) > 0, "hanging arms press on the trunk");
+    int arm = part_of(s, ROLE_LEFT_FOREARM), trunk = part_of(s, ROLE_PELVIS), asked = 0;
+    unsigned seed = 1;
+    double least = INFINITY;
+    Box b = s->posed.box[arm];
+    for (int k = 0; k < 200000; k++) {
+        double r[3];
+        for (int i = 0; i < 3; i++) r[i] = (double)((seed = seed * 1664525u + 1013904223u) >> 8) / (1 << 24);
+        Vec3 p = vec(b.low.x + r[0] * (b.high.x - b.low.x), b.low.y + r[1] * (b.high.y - b.low.y),
+                     b.low.z + r[2] * (b.high.z - b.low.z));
+        double x = body_frame_distance(&s->posed, arm, p, 1, NULL),
+               y = body_frame_distance(&s->posed, trunk, p, 1, NULL);
+        if (fabs(x) > 0.004 || y > 0.03 || y < -0.02) continue;
+        asked++;
+        least = fmin(least, x + y);
+    }
+    OK(asked > 1000 && least > YIELD_ROOM - 1e-4, "forearm and hip keep %.3f mm apart at %d points", 1e3 * least,
+       asked);
+}
+
+/* The skin that is drawn is the surface that is pushed against. */
+static void skin_is_the_surface(Scene *s) {
+    Pose pose = arms_down(s, 45);
+    scene_leg(s, &pose, true, 100, 140);
+    body_frame_pose(&s->posed, &pose);
+    double worst = 0, deepest = 0;
+    int moved = 0;
+    for (int p = 0; p < s->body.nparts; p++) {
+        const BodyPart *part = &s->body.part[p];
+        double most = 0;
+        for (int k = 0; k < s->posed.contacts[p].n; k++) most = fmax(most, s->posed.contacts[p].contact[k].most);
+        for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++) {
+            Vec3 rigid = rigid_apply(pose.bone[part->role], s->body.skin.position[v]);
+            double by = vec_dist(rigid, s->posed.position[v]);
+            deepest = fmax(deepest, by - most);
+            if (by < 1e-5) continue;
+            moved++;
+            worst = fmax(worst, fabs(body_frame_distance(&s->posed, p, s->posed.position[v], 1, NULL)));
+        }
+    }
+    OK(moved > 100, "%d vertices of the skin gave way", moved);
+    OK(worst < 1e-3, "they lie on the surface (%.2g m off)", worst);
+    OK(deepest < 1e-5, "none gave way farther than its part may");
+}
+
+/* A contact is felt by both parts, in shares that add up to the whole. */
+static void shares(void) {
+    for (int a = 0; a < ROLE_COUNT; a++)
+        for (int b = 0; b < ROLE_COUNT; b++) {
+            if (a == b || !yield_concerns((Role)a, (Role)b)) continue;
+            Contact x, y;
+            yield_contact((Role)a, (Role)b, 1, &x, &y);
+            if (fabs(x.share + y.share - 1) > 1e-15 || x.folds != y.folds || !yield_concerns((Role)b, (Role)a)) {
+                OK(false, "%s and %s do not agree", role_name((Role)a), role_name((Role)b));
+                return;
+            }
+        }
+    OK(true, "both sides of every contact agree");
+    OK(!yield_concerns(ROLE_SPINE, ROLE_CHEST) && !yield_concerns(ROLE_LEFT_SHIN, ROLE_LEFT_FOOT),
+       "the trunk is one, so is an ankle");
+    OK(yield_concerns(ROLE_LEFT_THIGH, ROLE_LEFT_SHIN) && yield_concerns(ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH),
+       "calf and thigh press on each other, so do both thighs");
+}
+
+/* It is a function of the pose that has no jumps: a degree more never moves the skin by a centimetre. */
+static void no_jumps(Scene *s) {
+    Arena arena = {0};
+    Error e = {0};
+    int n = s->body.skin.nvertices;
+    Vec3 *last = ARENA_NEW(&arena, Vec3, n, &e);
+    int jumps = 0;
+    for (int k = 0; last && k <= 90; k++) {
+        Pose pose = arms_down(s, 20 + 0.25 * k);
+        body_frame_pose(&s->posed, &pose);
+        for (int v = 0; v < n; v++) {
+            double by = k > 0 ? vec_dist(last[v], s->posed.position[v]) : 0;
+            last[v] = s->posed.position[v];
+            jumps += by > 0.008;
+        }
+    }
+    OK(jumps <= 90, "a quarter of a degree moves hardly any vertex by 8 mm (%d times in 90 steps)", jumps);
+    arena_free(&arena);
+}
+
+int main(void) {
+    Scene s;
+    scene_open(&s, "skirt");
+    shares();
+    free_skin_stays(&s);
+    room_is_made(&s);
+    skin_is_the_surface(&s);
+    no_jumps(&s);
+    arena_free(&s.arena);
+    return tap_done();
+}
