@@ -144,7 +144,7 @@ gone() {
 ok 'a motion that goes or is cut while it is read' gone
 
 # Faults at every call, one after the other
-if [ "$KITSUKE_BUILD" = san ] || ! ${CC:-cc} -shared -fPIC -O1 -o fault.so "$here/faults.c" -ldl 2>log; then
+if [ "$KITSUKE_BUILD" = san ] || ! ${CC:-cc} -shared -fPIC -O1 -Wl,-z,defs -o fault.so "$here/faults.c" -ldl 2>log; then
     skip 'faults at every call' 'the library that makes them cannot be built, or not be used with sanitizers'
     done_testing
 fi
