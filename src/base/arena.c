@@ -1,4 +1,6 @@
-/* A chain of blocks, each twice as large as the one before; reset keeps them. */
+/* A chain of blocks, each twice as large as the one before; reset keeps them. The system gives blocks
+   full of zeros, and large ones without memory behind them until it is used: only what has been
+   handed out before is cleared. */
 #include "base/arena.h"
 
 #include <stdint.h>
@@ -9,11 +11,12 @@ enum { ALIGN = 64, FIRST_BLOCK = 64 * 1024 };
 
 struct ArenaBlock {
     ArenaBlock *next;
-    size_t size, used; /* of the bytes behind this head */
+    char *data;                 /* aligned, behind this head */
+    size_t size, used, touched; /* bytes of it; touched: that may not be zero */
 };
 
-/* The head is padded so that the bytes behind it start aligned. */
-#define HEAD ((sizeof(ArenaBlock) + ALIGN - 1) / ALIGN * ALIGN)
+/* What a block needs beside its data. */
+#define HEAD (sizeof(ArenaBlock) + ALIGN)
 
 /* Would a block of that size be more than is allowed? */
 static bool is_beyond(const Arena *a, size_t size) { return a->limit && a->held + size + HEAD > a->limit; }
@@ -22,9 +25,10 @@ static ArenaBlock *new_block(Arena *a, size_t need) {
     size_t size = a->current ? a->current->size * 2 : FIRST_BLOCK;
     if (size < need || is_beyond(a, size)) size = need;
     if (is_beyond(a, size)) return NULL;
-    ArenaBlock *b = aligned_alloc(ALIGN, HEAD + size);
+    ArenaBlock *b = calloc(1, HEAD + size);
     if (!b) return NULL;
-    *b = (ArenaBlock){NULL, size, 0};
+    char *data = (char *)(b + 1);
+    *b = (ArenaBlock){.data = data + (ALIGN - (uintptr_t)data % ALIGN) % ALIGN, .size = size};
     a->held += HEAD + size;
     if (a->current) a->current->next = b;
     else a->first = b;
@@ -38,11 +42,14 @@ static void *take(Arena *a, size_t bytes) {
         if (!b) return NULL;
         a->current = b;
     }
-    char *p = (char *)a->current + HEAD + a->current->used;
-    a->current->used += bytes;
+    ArenaBlock *b = a->current;
+    char *p = b->data + b->used;
+    if (b->touched > b->used) memset(p, 0, b->touched - b->used < bytes ? b->touched - b->used : bytes);
+    b->used += bytes;
+    if (b->used > b->touched) b->touched = b->used;
     a->used += bytes;
     if (a->used > a->peak) a->peak = a->used;
-    return memset(p, 0, bytes);
+    return p;
 }
 
 void *arena_array(Arena *a, size_t count, size_t size, Error *e) {
@@ -68,7 +75,7 @@ char *arena_text(Arena *a, const char *text, size_t n, Error *e) {
 void arena_reset(Arena *a) {
     for (ArenaBlock *b = a->first; b; b = b->next) {
 #ifdef VALIDATE
-        memset((char *)b + HEAD, 0xDD, b->used); /* so that a stale pointer shows */
+        memset(b->data, 0xDD, b->used); /* so that a stale pointer shows */
 #endif
         b->used = 0;
     }
