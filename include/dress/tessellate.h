@@ -14,12 +14,14 @@ typedef struct {
     int *first_of_patch;     /* npatches + 1: triangles of a patch */
     Edge *edge;
     int *first_edge, *next_edge; /* private: edges by their smaller vertex */
+    unsigned char *laid;     /* private: the leaves that lie there */
 } Sheet;
 
 MUST_CHECK bool sheet_reserve(Sheet *s, const Lattice *lattice, Arena *arena, Error *e);
 
 /* Lays detail x detail facets over every leaf. Where a leaf meets a finer one, its border facets
-   take the finer one's vertices in and become fans round their middle: no T-junctions. */
+   take the finer one's vertices in and become fans round their middle: no T-junctions. Leaves that
+   are those of the last call cost nothing. */
 void tessellate(Sheet *s, const Leaves *leaves);
 
 /* The edges on borders of leaves, coarser than those tessellated or the same: each once, into room
