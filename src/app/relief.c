@@ -79,7 +79,6 @@ static bool read_frame(Relief *r, Error *e) {
     return true;
 }
 
-
 /* The frames within the window of `frame` that no jump parts from it, and that have been read. */
 static void window_of(const Relief *r, int frame, int *first, int *last) {
     int stretch = moment_of(r, frame)->stretch;

@@ -4,7 +4,7 @@
    The one idea: the arm is looked at section by section. The point of a section that is nearest to a
    part of the trunk must stand off it by what the cloth on both needs. A turn to the side, or forwards
    for what is in front, moves that point on an arc; where on the arc the room is enough is found by
-   bisection. The largest turns of all sections are those of the arm. A section has a say only as far as
+   search. The largest turns of all sections are those of the arm. A section has a say only as far as
    turning leads it away from the trunk; that say fades, so nothing here ever jumps. */
 #include "figure/relax.h"
 
