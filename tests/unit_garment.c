@@ -255,7 +255,7 @@ static void shipped(void) {
     } files[] = {{"garments/skirt.garment", 6},
                  {"garments/paper-skirt.garment", 2},
                  {"garments/trousers.garment", 24},
-                 {"garments/tshirt.garment", 28}};
+                 {"garments/tshirt.garment", 20}};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         Arena arena = {0};
         Error e = {0};

@@ -10,8 +10,6 @@ typedef struct {
     unsigned near;                    /* parts (bit 1 << part) worth asking */
     int id[4 * LATTICE_LEVELS];       /* into Field.displacement */
     double weight[4 * LATTICE_LEVELS], share[4 * LATTICE_LEVELS], norm2; /* share: weight x mobility */
-    int fine;                         /* the first of them below the top level, */
-    double fine_norm2;                /* and what norm2 is from there on */
     double spent, budget;             /* push issued in this frame, and its limit; metres */
     Vec3 net;                         /* their sum */
     Vec3 seen;                        /* where it was when its distances were last taken, */
@@ -22,9 +20,9 @@ typedef struct {
 typedef struct {
     const Lattice *lattice;
     Field field;
-    unsigned limbs;                   /* parts (bits 1 << role) that may push from outside */
     Field kept;                       /* of another attempt */
     bool *active;                     /* per level vertex: all cells round it are split to its level */
+    const Patch *root;                /* of this frame */
     Vec3 *rest;                       /* per lattice place: in the bind pose */
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
     double *clearance;                /* per mesh vertex: distance asked for */

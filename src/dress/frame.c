@@ -160,27 +160,21 @@ static void split_where_bad(Dresser *d) {
     tessellate(&d->sheet, d->options.fixed_topology ? &d->grid : &d->leaves);
 }
 
-/* Where an attempt leaves something, another is made from the global shape alone, with finer patches
-   there, and where that leaves something too, a last one without the limbs that come from outside. The
-   best stays. */
+/* Where an attempt leaves something of the parts that the garment is worn over, another is made from the
+   global shape alone, with finer patches there. The better one stays. */
 static Wrong push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
     PushResult result = {0};
-    d->push.limbs = ~0u;
     Wrong best = attempt(d, body, stats, &result, count);
-    for (int again = 0; total(&best.own) > 0 && again < 2; again++) {
-        bool limbs = total(&best.other) > 0;
-        if (again == 1 && !limbs) break;
-        if (again == 1) d->push.limbs = d->fit.collide;
+    if (total(&best.own) > 0) {
         if (d->options.split == SPLIT_ADAPTIVE) split_where_bad(d);
         push_keep(&d->push);
         field_forget(&d->push.field);
         Wrong w = attempt(d, body, stats, &result, count);
-        if (is_better(&w, &best)) {
-            best = w;
-            continue;
+        if (!is_better(&w, &best)) {
+            push_back(&d->push, &d->sheet);
+            w = test_mesh(d, body, count);
         }
-        push_back(&d->push, &d->sheet);
-        best = test_mesh(d, body, count);
+        best = w;
     }
     stats->capped = total(&best.own) + total(&best.other) > 0;
     push_measure(&d->push, body, &d->sheet, &result);

@@ -21,7 +21,7 @@ static const double BUDGET = 0.02;     /* a sample may issue twice its first vio
 static const double HEADWAY = 0.6;     /* pushes that get this share of their length nowhere are a pinch */
 static const double OPPOSITE = -0.2;   /* cosine: normals of parts between which cloth is squeezed */
 static const double WRONG_SIDE = 0.5;  /* cosine to the side at rest below which the normal is bent towards it */
-static const double ACROSS = 0.4;      /* sine: limbs that point at the body more than that are left by their normal */
+static const double OUTWARDS = 0.3;    /* cosine: limbs from outside do not push cloth this much out of itself */
 static const double RAISE_MAX = 0.015; /* most extra clearance */
 static const double OFFSET_MAX = 0.03; /* of a single vertex: more would be a spike */
 
@@ -80,14 +80,24 @@ static Vec3 sample_point(const Push *p, const Sheet *sheet, const PushSample *s)
     return displaced(p, sheet, s->vertex, d);
 }
 
-/* Parts that a place keeps out of, those that it is worn over and those that come from outside, which lie
-   within `far` of x. */
-static unsigned parts_near(const Push *p, const BodyFrame *body, int place, Vec3 x, double far) {
-    unsigned near = 0, collide = p->lattice->collide[place] | (p->lattice->outside[place] & p->limbs);
+/* Parts of `parts` that lie within `far` of x. */
+static unsigned parts_near(const BodyFrame *body, unsigned parts, Vec3 x, double far) {
+    unsigned near = 0;
     for (int k = 0; k < body->body->nparts; k++)
-        if (collide & part_bit(body, k) && body_frame_distance(body, k, x, far, NULL) < far) near |= 1u << k;
+        if (parts & part_bit(body, k) && body_frame_distance(body, k, x, far, NULL) < far) near |= 1u << k;
     return near;
 }
+
+/* Parts that move the surface at a place: those that it is worn over, and those that the garment is worn
+   over elsewhere, as the other leg is for one of trousers. */
+static unsigned movers(const Push *p, int place) {
+    const Lattice *l = p->lattice;
+    return l->collide[place] | (l->outside[place] & l->fit->collide);
+}
+
+/* All that a place keeps out of. Arms that touch a skirt dent it by single vertices, after all else: coarse
+   displacements for them and for the legs would fight. */
+static unsigned parts_at(const Push *p, int place) { return p->lattice->collide[place] | p->lattice->outside[place]; }
 
 static void add_sample(Push *p, const Sheet *sheet, int vertex, unsigned near) {
     const Lattice *l = p->lattice;
@@ -107,12 +117,7 @@ static void add_sample(Push *p, const Sheet *sheet, int vertex, unsigned near) {
             s->share[s->n++] = gives * weight[k];
             s->norm2 += gives * weight[k] * weight[k];
         }
-        if (level == 0) {
-            s->fine = s->n;
-            s->fine_norm2 = -s->norm2;
-        }
     }
-    s->fine_norm2 += s->norm2;
 }
 
 static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
@@ -120,19 +125,15 @@ static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
     p->nsamples = 0;
     find_points(p, sheet);
     for (int v = 0; v < sheet->nvertices; v++) {
-        unsigned near = parts_near(p, body, sheet->place[v], p->point[v], far);
+        unsigned near = parts_near(body, movers(p, sheet->place[v]), p->point[v], far);
         if (near) add_sample(p, sheet, v, near);
     }
 }
 
-/* Moves a sample by `depth` along n with the least change of the unknowns. What comes from outside only
-   dents the cloth: it leaves the top level alone, where there is another, and what is pinned. */
-static void project(Push *p, const PushSample *s, bool is_worn, Vec3 n, double depth, PushResult *result) {
-    bool all = is_worn || s->fine == s->n;
-    double step = depth / fmax(all ? s->norm2 : s->fine_norm2, NORM_MIN);
-    for (int k = all ? 0 : s->fine; k < s->n; k++) {
-        bool is_pinned = s->share[k] < s->weight[k];
-        if (is_pinned && !is_worn) continue;
+/* Moves a sample by `depth` along n with the least change of the unknowns. */
+static void project(Push *p, const PushSample *s, Vec3 n, double depth, PushResult *result) {
+    double step = depth / fmax(s->norm2, NORM_MIN);
+    for (int k = 0; k < s->n; k++) {
         Vec3 *d = &p->field.displacement[s->id[k]];
         *d = field_limit(vec_mad(*d, n, step * s->share[k]), p->field.cap, &result->capped);
     }
@@ -163,35 +164,13 @@ static double room_for(const BodyFrame *body, unsigned near, unsigned worn, int 
     return opposite & worn && !(part_bit(body, part) & worn) ? distance : clearance;
 }
 
-/* The middle of a part's section at the height of x; world. */
-static Vec3 axis_at(const BodyFrame *body, int part, Vec3 x) {
-    Vec3 q = rigid_apply(body->to_part[part], x);
-    Section c = body_section_at(&body->body->part[part], q.y, NULL);
-    return rigid_unapply(body->to_part[part], vec(c.x, c.at, c.z));
-}
-
-/* The side of a part on which x belongs; unit. The nearest way out of a limb that lies across the cloth may
-   lead to the other one. A part that the place is worn over has it where it was in the bind pose, as
-   seen from its axis; one that comes from outside has it where the nearest part is that it is worn
-   over. */
-static Vec3 side_of(const Push *p, const BodyFrame *body, int place, int part, Vec3 x, Vec3 normal) {
-    const Body *b = body->body;
-    if (p->lattice->collide[place] & part_bit(body, part)) {
-        Vec3 q = rigid_unapply(b->part[part].frame, p->rest[place]);
-        Section c = body_section_at(&b->part[part], q.y, NULL);
-        return mat_apply(body->to_world[part], vec_unit_or(vec(q.x - c.x, 0, q.z - c.z), vec(1, 0, 0)));
-    }
-    int worn = part;
-    double nearest = INFINITY;
-    for (int k = 0; k < b->nparts; k++) {
-        if (!(p->lattice->collide[place] & part_bit(body, k))) continue;
-        double d = vec_dist(axis_at(body, k, x), x);
-        if (d < nearest) worn = k;
-        nearest = fmin(nearest, d);
-    }
-    Vec3 toward = vec_unit_or(vec_sub(axis_at(body, worn, x), axis_at(body, part, x)), normal);
-    Vec3 along = mat_column(body->to_world[part], 1), across = vec_mad(toward, along, -vec_dot(toward, along));
-    return vec_len(across) > ACROSS ? vec_unit_or(across, normal) : normal; /* never the whole length of an arm */
+/* The side of a part that the place is worn over on which it belongs: where it was in the bind pose, as
+   seen from the part's axis. Unit; world of this pose. */
+static Vec3 side_at_rest(const Push *p, const BodyFrame *body, int place, int part) {
+    const BodyPart *b = &body->body->part[part];
+    Vec3 q = rigid_unapply(b->frame, p->rest[place]);
+    Section c = body_section_at(b, q.y, NULL);
+    return mat_apply(body->to_world[part], vec_unit_or(vec(q.x - c.x, 0, q.z - c.z), vec(1, 0, 0)));
 }
 
 /* A foot stands across the leg of trousers: it has no side along it. */
@@ -199,18 +178,29 @@ static bool has_side(Role role) {
     return role != ROLE_LEFT_FOOT && role != ROLE_RIGHT_FOOT && role != ROLE_LEFT_TOE && role != ROLE_RIGHT_TOE;
 }
 
+/* The nearest way out of a limb that lies across the cloth may lead to its other side. *n, the normal of
+   the part at a place: bent towards the side where the place belongs; for a part that comes from outside
+   never out of the garment. Returns whether it has changed. */
+static bool turn_inside(const Push *p, const BodyFrame *body, int place, int part, Vec3 *n) {
+    if (p->lattice->collide[place] & part_bit(body, part)) {
+        if (!has_side(body->body->part[part].role)) return false;
+        Vec3 side = side_at_rest(p, body, place, part);
+        double turn = 2 * (1 - smoothstep(-WRONG_SIDE, WRONG_SIDE, vec_dot(*n, side)));
+        if (turn > 0) *n = vec_unit_or(vec_mad(*n, side, turn), side);
+        return turn > 0;
+    }
+    Vec3 outwards = lattice_normal(p->lattice, p->root, place);
+    if (vec_dot(*n, outwards) <= OUTWARDS) return false;
+    *n = vec_scale(outwards, -1);
+    return true;
+}
+
 /* How far x must go along *n, the outward normal, to be `wanted` away from a part that is
-   `distance` away. Turns *n to the side of the part where the place belongs: a little more the farther
-   it is off for a part that the place is worn over, all of the way for one from outside. */
+   `distance` away. Turns *n where that leads to the wrong side. */
 static double way_out(const Push *p, const BodyFrame *body, int place, int part, Vec3 x, double wanted, double distance,
                       Vec3 *n) {
-    bool is_worn = p->lattice->collide[place] & part_bit(body, part);
     double way = wanted - distance;
-    if (is_worn && !has_side(body->body->part[part].role)) return way;
-    Vec3 side = side_of(p, body, place, part, x, *n);
-    double turn = 2 * (1 - smoothstep(-WRONG_SIDE, WRONG_SIDE, vec_dot(*n, side)));
-    if (is_worn && turn <= 0) return way;
-    *n = is_worn ? vec_unit_or(vec_mad(*n, side, turn), side) : side;
+    if (!turn_inside(p, body, place, part, n)) return way;
     for (int k = 0; k < STEPS_OUT; k++) {
         double d = body_frame_distance(body, part, vec_mad(x, *n, way), wanted, NULL);
         if (d >= wanted - SLACK * wanted) break;
@@ -242,7 +232,7 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
         if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->field.scale;
         s->spent += depth;
         s->net = vec_mad(s->net, n, depth);
-        project(p, s, worn & part_bit(body, part), n, depth, result);
+        project(p, s, n, depth, result);
         x = sample_point(p, sheet, s);
         most = fmax(most, depth);
     }
@@ -276,22 +266,24 @@ static double sweep_all(Push *p, const BodyFrame *body, const Sheet *sheet, Push
 }
 
 /* Single vertices that the sweeps left too near are moved by their own offset. */
-static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, unsigned near, bool *capped) {
-    Vec3 *o = &p->field.offset[sheet->place[vertex]];
-    for (int step = 0; step < SETTLES_MAX; step++) {
+static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, bool *capped) {
+    int place = sheet->place[vertex];
+    double clearance = p->clearance[vertex];
+    Vec3 *o = &p->field.offset[place], *x = &p->point[vertex];
+    unsigned near = parts_near(body, parts_at(p, place), *x, clearance), worn = p->lattice->collide[place];
+    for (int step = 0; step < SETTLES_MAX && near; step++) {
         bool moved = false;
         for (int part = 0; near >> part; part++) {
             if (!(near >> part & 1)) continue;
             Vec3 n;
-            double clearance = p->clearance[vertex],
-                   distance = body_frame_distance(body, part, p->point[vertex], clearance, &n);
+            double distance = body_frame_distance(body, part, *x, clearance, &n);
             if (clearance - distance <= SLACK * clearance) continue;
-            double depth = room_for(body, near, p->lattice->collide[sheet->place[vertex]], part, p->point[vertex],
-                                    clearance, distance, n) -
-                           distance;
-            if (depth <= SLACK * clearance) continue;
-            Vec3 longer = field_limit(vec_mad(*o, n, depth), OFFSET_MAX * p->field.scale, capped);
-            p->point[vertex] = vec_add(p->point[vertex], vec_sub(longer, *o));
+            double wanted = room_for(body, near, worn, part, *x, clearance, distance, n);
+            if (wanted - distance <= SLACK * clearance) continue;
+            double way = way_out(p, body, place, part, *x, wanted, distance, &n);
+            if (!(worn & part_bit(body, part)) && way > OFFSET_MAX * p->field.scale) continue; /* out of reach */
+            Vec3 longer = field_limit(vec_mad(*o, n, way), OFFSET_MAX * p->field.scale, capped);
+            *x = vec_add(*x, vec_sub(longer, *o));
             *o = longer;
             moved = true;
         }
@@ -301,6 +293,7 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
 
 void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *sheet) {
     p->nraised = 0;
+    p->root = root;
     find_active(p, leaves);
     for (int v = 0; v < sheet->nvertices; v++) {
         p->global[v] = lattice_point(p->lattice, root, sheet->place[v]);
@@ -320,8 +313,7 @@ void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *
         if (moved < REACH * p->field.scale) break; /* nobody can have come near who was not */
     }
     find_points(p, sheet);
-    for (int k = 0; k < p->nsamples; k++)
-        settle_vertex(p, body, sheet, p->sample[k].vertex, p->sample[k].near, &result->capped);
+    for (int v = 0; v < sheet->nvertices; v++) settle_vertex(p, body, sheet, v, &result->capped);
 }
 
 bool push_raise(Push *p, int vertex, double by) {
@@ -333,11 +325,7 @@ bool push_raise(Push *p, int vertex, double by) {
 }
 
 void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
-    for (int k = 0; k < p->nraised; k++) {
-        int v = p->raised[k];
-        settle_vertex(p, body, sheet, v, parts_near(p, body, sheet->place[v], p->point[v], p->clearance[v]),
-                      &result->capped);
-    }
+    for (int k = 0; k < p->nraised; k++) settle_vertex(p, body, sheet, p->raised[k], &result->capped);
 }
 
 void push_keep(Push *p) { field_copy(&p->field, &p->kept); }
@@ -355,6 +343,7 @@ void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, Push
         result->displacement = fmax(result->displacement, vec_dist(p->point[v], p->global[v]));
     for (int k = 0; k < p->nsamples; k++) {
         const PushSample *s = &p->sample[k];
-        if (s->budget >= 0 && parts_near(p, body, sheet->place[s->vertex], p->point[s->vertex], 0)) result->pinched++;
+        if (s->budget >= 0 && parts_near(body, movers(p, sheet->place[s->vertex]), p->point[s->vertex], 0))
+            result->pinched++;
     }
 }

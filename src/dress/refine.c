@@ -140,7 +140,7 @@ static void open_corners(const Classifier *c, int level, int ncells, Leaves *lea
 }
 
 /* Lets the cloth give way to limbs that touch it from outside, which the rule knows nothing of: splits
-   the deepest cells that have a corner inside of one. */
+   the patches that have a corner of a deepest cell inside of one, once. */
 static void open_to_limbs(const Classifier *c, const Patch *root, const BodyFrame *body, Leaves *leaves) {
     const Lattice *l = c->lattice;
     int cells = 1 << l->depth, last = cells - 1;
@@ -150,7 +150,8 @@ static void open_to_limbs(const Classifier *c, const Patch *root, const BodyFram
                 int place = lattice_place(l, p, a * l->detail, b * l->detail);
                 unsigned outside = l->outside[place];
                 if (outside && any_inside(body, outside, (Vec3[1]){lattice_point(l, root, place)}, 1))
-                    leaves_split(leaves, p, l->depth, a < last ? a : last, b < last ? b : last);
+                    leaves_split(leaves, p, 1, (a < last ? a : last) >> (l->depth - 1),
+                                 (b < last ? b : last) >> (l->depth - 1));
             }
 }
 
