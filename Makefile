@@ -133,7 +133,7 @@ bench: all $(OUT)/bench/bench		## time against others' ways, into build/bench.cs
 $(OUT)/bench/%.o: tests/bench/%.c $(OUT)/flags
 	@mkdir -p $(@D)
 	$(SAY) '  CC   $<'
-	$(Q)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) -DBENCH_FLAGS='"$(MODE) -ffp-contract=off $(CFLAGS)"' -MMD -MP -c $< -o $@
+	$(Q)$(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) -DBENCH_FLAGS='"$(strip $(ALL_CFLAGS))"' -MMD -MP -c $< -o $@
 $(OUT)/bench/bench: $(BENCH) $(OUT)/core.a
 	$(Q)$(CXX) $(MODE) $(LDFLAGS) $^ $(LIBS) -o $@
 
