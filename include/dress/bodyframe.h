@@ -30,6 +30,9 @@ void body_frame_pose(BodyFrame *f, const Pose *pose);
    See body_distance for `far`. */
 double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal);
 
+/* May p be nearer to a part than `far`? Asked of the part as it is where nothing presses on it. */
+bool body_frame_near(const BodyFrame *f, int part, Vec3 p, double far);
+
 /* Is p farther than `far` from a part for certain? A cheap question before the exact one. */
 static inline bool body_frame_far(const BodyFrame *f, int part, Vec3 p, double far) {
     const Box *b = &f->box[part];

@@ -36,7 +36,8 @@ static double own_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec
 
 static double scale_of(const BodyFrame *f) { return f->body->height / 1.70; }
 
-/* How far a part gives way at p, `distance` away from it: to the other that asks for most. */
+/* How far a part gives way at p, `distance` away from it: to the other that asks for most. Farther away
+   than the room that parts leave to each other it is never asked. */
 static double give_way(const BodyFrame *f, int part, Vec3 p, double distance, Vec3 *normal) {
     const Contacts *contacts = &f->contacts[part];
     Vec3 mine = *normal;
@@ -58,9 +59,13 @@ double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec
     Vec3 n;
     double d = own_distance(f, part, p, far, &n);
     if (d >= far) return d;
-    d += give_way(f, part, p, d, &n);
+    if (d < YIELD_ROOM * scale_of(f)) d += give_way(f, part, p, d, &n);
     if (normal) *normal = n;
     return d;
+}
+
+bool body_frame_near(const BodyFrame *f, int part, Vec3 p, double far) {
+    return own_distance(f, part, p, far, NULL) < far;
 }
 
 /* Do the two come nearer than the room for cloth? Asked of the vertices of the first. */
@@ -118,12 +123,21 @@ static double way_in(const BodyFrame *f, int p, Vec3 skin, double most, Vec3 *n)
     return out + (in - out) * before / (before - here);
 }
 
+/* Is any part that this one gives way to near p at all? */
+static bool is_pressed(const BodyFrame *f, int part, Vec3 p) {
+    const Contacts *contacts = &f->contacts[part];
+    for (int k = 0; k < contacts->n; k++)
+        if (body_frame_near(f, contacts->contact[k].other, p, YIELD_ROOM * scale_of(f))) return true;
+    return false;
+}
+
 /* Moves the skin of a part to where it has given way; never farther than the most that it gives. */
 static void yield_skin(BodyFrame *f, int p) {
     const BodyPart *part = &f->body->part[p];
     double most = 0;
     for (int k = 0; k < f->contacts[p].n; k++) most = fmax(most, f->contacts[p].contact[k].most);
     for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++) {
+        if (!is_pressed(f, p, f->position[v])) continue;
         Vec3 n = f->normal[v];
         double way = way_in(f, p, f->position[v], most, &n);
         if (way <= 0) continue;

@@ -72,10 +72,10 @@ Vec3 field_at(const Field *f, unsigned levels, int place) {
 }
 
 Vec3 field_limit(Vec3 d, double cap, bool *capped) {
-    double n = vec_len(d);
-    if (n <= cap) return d;
+    double n2 = vec_dot(d, d);
+    if (n2 <= cap * cap) return d;
     *capped = true;
-    return vec_scale(d, cap / n);
+    return vec_scale(d, cap / sqrt(n2));
 }
 
 /* Derivatives of the displaced patch at a place, by the parameters of its owner. */
@@ -99,27 +99,37 @@ static Vec3 analytic_normal(const Field *f, const Patch *root, unsigned levels, 
 }
 
 static Vec3 face_normal(const Vec3 *position, const int v[3]) {
-    Vec3 n = vec_cross(vec_sub(position[v[1]], position[v[0]]), vec_sub(position[v[2]], position[v[0]]));
-    return vec_unit_or(n, vec(0, 0, 0));
+    return vec_cross(vec_sub(position[v[1]], position[v[0]]), vec_sub(position[v[2]], position[v[0]]));
+}
+
+/* Marks the vertices whose normal is too far off one of their facets. */
+static bool find_bent(const Field *f, const Sheet *sheet, const Vec3 *position, const Vec3 *normal) {
+    bool any = false;
+    for (int v = 0; v < sheet->nvertices; v++) f->bent[v] = false;
+    for (int t = 0; t < sheet->ntriangles; t++) {
+        const int *v = sheet->triangle[t].v;
+        Vec3 face = face_normal(position, v);
+        double least2 = AGREEMENT * AGREEMENT * vec_dot(face, face);
+        for (int c = 0; c < 3; c++) {
+            double along = vec_dot(normal[v[c]], face);
+            if (along > 0 && along * along >= least2) continue;
+            any = f->bent[v[c]] = true;
+        }
+    }
+    return any;
 }
 
 void field_normals(const Field *f, const Patch *root, const Sheet *sheet, const Vec3 *position, Vec3 *normal) {
     unsigned levels = field_levels(f);
-    for (int v = 0; v < sheet->nvertices; v++) {
+    for (int v = 0; v < sheet->nvertices; v++)
         normal[v] = vec_unit_or(analytic_normal(f, root, levels, sheet->place[v]), vec(0, 1, 0));
-        f->bent[v] = false;
-    }
-    for (int t = 0; t < sheet->ntriangles; t++) {
-        const int *v = sheet->triangle[t].v;
-        Vec3 face = face_normal(position, v);
-        for (int c = 0; c < 3; c++) f->bent[v[c]] |= vec_dot(normal[v[c]], face) < AGREEMENT;
-    }
+    if (!find_bent(f, sheet, position, normal)) return;
     for (int v = 0; v < sheet->nvertices; v++)
         if (f->bent[v]) normal[v] = vec(0, 0, 0);
     for (int t = 0; t < sheet->ntriangles; t++) {
         const int *v = sheet->triangle[t].v;
         if (!f->bent[v[0]] && !f->bent[v[1]] && !f->bent[v[2]]) continue;
-        Vec3 face = face_normal(position, v);
+        Vec3 face = vec_unit_or(face_normal(position, v), vec(0, 0, 0));
         for (int c = 0; c < 3; c++)
             if (f->bent[v[c]]) normal[v[c]] = vec_add(normal[v[c]], face);
     }

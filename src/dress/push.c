@@ -84,7 +84,7 @@ static Vec3 sample_point(const Push *p, const Sheet *sheet, const PushSample *s)
 static unsigned parts_near(const BodyFrame *body, unsigned parts, Vec3 x, double far) {
     unsigned near = 0;
     for (int k = 0; k < body->body->nparts; k++)
-        if (parts & part_bit(body, k) && body_frame_distance(body, k, x, far, NULL) < far) near |= 1u << k;
+        if (parts & part_bit(body, k) && body_frame_near(body, k, x, far)) near |= 1u << k;
     return near;
 }
 
@@ -335,6 +335,13 @@ void push_back(Push *p, const Sheet *sheet) {
     find_points(p, sheet);
 }
 
+/* Is x inside any of `parts`? */
+static bool is_inside(const BodyFrame *body, unsigned parts, Vec3 x) {
+    for (int k = 0; k < body->body->nparts; k++)
+        if (parts & part_bit(body, k) && body_frame_distance(body, k, x, 0, NULL) < 0) return true;
+    return false;
+}
+
 void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
     result->active = result->pinched = 0;
     result->displacement = 0;
@@ -343,7 +350,7 @@ void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, Push
         result->displacement = fmax(result->displacement, vec_dist(p->point[v], p->global[v]));
     for (int k = 0; k < p->nsamples; k++) {
         const PushSample *s = &p->sample[k];
-        if (s->budget >= 0 && parts_near(body, movers(p, sheet->place[s->vertex]), p->point[s->vertex], 0))
-            result->pinched++;
+        bool pushed = s->budget >= 0;
+        result->pinched += pushed && is_inside(body, movers(p, sheet->place[s->vertex]), p->point[s->vertex]);
     }
 }
