@@ -6,11 +6,12 @@
 
 static const double FADE = 0.8;      /* of the carried displacement, in 1/30 s */
 static const double FELT = 0.0002;   /* metres on 1.70 m: a carried displacement below this is dropped */
+static const double CAP_LOOSE = 7, CAP_TIGHT = 9; /* parts of the height */
 static const double AGREEMENT = 0.3; /* cosine: an analytic normal farther off one of its facets is not used */
 
 bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e) {
     *f = (Field){.lattice = lattice, .scale = lattice->fit->height / 1.70, .pelvis = mat_identity()};
-    f->cap = lattice->fit->height / (lattice->fit->garment->loose ? 7 : 9);
+    f->cap = lattice->fit->height / (lattice->fit->garment->loose ? CAP_LOOSE : CAP_TIGHT);
     for (int l = 0; l < LATTICE_LEVELS; l++)
         f->start[l + 1] = f->start[l] + (l <= lattice->depth ? lattice->level[l].count : 0);
     f->displacement = ARENA_NEW(arena, Vec3, f->start[LATTICE_LEVELS], e);

@@ -21,6 +21,8 @@ enum { DETAIL_DEFAULT = 8, DEPTH_DEFAULT = 2 };
 /* Rounds of asking for more distance; every third time the whole surface gives way, not only the
    vertices that were asked. */
 enum { ROUNDS_MAX = 9, SOLVE_EVERY = 3 };
+enum { ATTEMPTS_MORE = 2 };
+static const double NEAR = 0.45;    /* of the cap, in the last attempt */
 static const double HEADWAY = 0.7;  /* of the bad vertices may be left after that, or it is given up */
 static const double RAISE = 0.0015; /* metres of clearance added where an edge still crosses, on 1.70 m */
 
@@ -161,15 +163,19 @@ static void split_where_bad(Dresser *d) {
 }
 
 /* Where an attempt leaves something of the parts that the garment is worn over, another is made from the
-   global shape alone, with finer patches there. The better one stays. */
+   global shape alone, with finer patches there; and where that does too, one that may not move anything
+   far, for what has been thrown across a limb comes to rest beside it then. The best stays. */
 static Wrong push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
     PushResult result = {0};
+    double cap = d->push.field.cap;
     Wrong best = attempt(d, body, stats, &result, count);
-    if (total(&best.own) > 0) {
+    for (int again = 0; again < ATTEMPTS_MORE && total(&best.own) > 0; again++) {
         if (d->options.split == SPLIT_ADAPTIVE) split_where_bad(d);
         push_keep(&d->push);
         field_forget(&d->push.field);
+        if (again > 0) d->push.field.cap = NEAR * cap;
         Wrong w = attempt(d, body, stats, &result, count);
+        d->push.field.cap = cap;
         if (!is_better(&w, &best)) {
             push_back(&d->push, &d->sheet);
             w = test_mesh(d, body, count);
