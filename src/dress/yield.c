@@ -38,6 +38,10 @@ bool yield_concerns(Role a, Role b) {
     return role_limb(a) > 0 && a != b && (b - a > 1 || is_upper(a));
 }
 
+/* Captured legs that swing past each other pass through each other by more than flesh would give. */
+static const double SHIN_TO_SHIN = 0.032;
+static bool is_shin(Role r) { return r == ROLE_LEFT_SHIN || r == ROLE_RIGHT_SHIN; }
+
 /* Parts that meet at a joint of the body: at its outside they are one surface, and only where they
    fold against each other do they press. */
 static bool share_joint(Role a, Role b) {
@@ -47,6 +51,7 @@ static bool share_joint(Role a, Role b) {
 
 void yield_contact(Role a, Role b, double scale, Contact *of_a, Contact *of_b) {
     double soft_a = softness(a), soft_b = softness(b);
+    if (is_shin(a) && is_shin(b)) soft_a = soft_b = SHIN_TO_SHIN;
     *of_a = (Contact){.share = soft_a / (soft_a + soft_b), .most = soft_a * scale, .folds = share_joint(a, b)};
     *of_b = (Contact){.share = 1 - of_a->share, .most = soft_b * scale, .folds = of_a->folds};
 }
