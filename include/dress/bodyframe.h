@@ -33,6 +33,9 @@ double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec
 /* May p be nearer to a part than `far`? Asked of the part as it is where nothing presses on it. */
 bool body_frame_near(const BodyFrame *f, int part, Vec3 p, double far);
 
+/* Is a world point inside any of `parts` (bits 1 << role)? */
+bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p);
+
 /* Is p farther than `far` from a part for certain? A cheap question before the exact one. */
 static inline bool body_frame_far(const BodyFrame *f, int part, Vec3 p, double far) {
     const Box *b = &f->box[part];

@@ -37,6 +37,9 @@ Vec3 field_limit(Vec3 d, double cap, bool *capped);
 
 static inline bool field_is_zero(Vec3 d) { return d.x == 0 && d.y == 0 && d.z == 0; }
 
+/* Outward unit normal of the displaced patches at a place (analytic), or of the root patches where `levels` is 0. */
+Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place);
+
 /* Unit normals of the displaced patches at the sheet's vertices (analytic). Where offsets bend the
    mesh away from its patches, the mean of the facets' normals round the vertex. */
 void field_normals(const Field *f, const Patch *root, const Sheet *sheet, const Vec3 *position, Vec3 *normal);

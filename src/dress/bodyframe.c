@@ -1,7 +1,9 @@
-/* Posing the body: vertices to the world and to the precision of the text, one box tree a part. */
+/* Posing the body: its parts to the world, each lets the others press on it (dress/yield), and what is then
+   its skin goes to the precision of the text and is boxed part by part. */
 #include "dress/bodyframe.h"
 
 #include "base/clock.h"
+#include "geometry/boxtree.h"
 
 bool body_frame_init(BodyFrame *f, const Body *body, double unit, Arena *arena, Error *e) {
     *f = (BodyFrame){.body = body, .unit = unit};
@@ -68,6 +70,12 @@ bool body_frame_near(const BodyFrame *f, int part, Vec3 p, double far) {
     return own_distance(f, part, p, far, NULL) < far;
 }
 
+bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p) {
+    for (int k = 0; k < f->body->nparts; k++)
+        if (parts & part_bit(f, k) && body_frame_distance(f, k, p, 0, NULL) < 0) return true;
+    return false;
+}
+
 /* Do the two come nearer than the room for cloth? Asked of the vertices of the first. */
 static bool is_near(const BodyFrame *f, int a, int b) {
     const BodyPart *part = &f->body->part[a];
@@ -77,9 +85,9 @@ static bool is_near(const BodyFrame *f, int a, int b) {
     return false;
 }
 
-static bool boxes_near(const Box *a, const Box *b, double room) {
-    return a->low.x - b->high.x < room && b->low.x - a->high.x < room && a->low.y - b->high.y < room &&
-           b->low.y - a->high.y < room && a->low.z - b->high.z < room && b->low.z - a->high.z < room;
+static bool boxes_near(Box a, Box b, double room) {
+    Vec3 grown = vec(room, room, room);
+    return box_touches((Box){vec_sub(a.low, grown), vec_add(a.high, grown)}, b);
 }
 
 static void find_contacts(BodyFrame *f) {
@@ -90,8 +98,7 @@ static void find_contacts(BodyFrame *f) {
             Role of_a = body->part[a].role, of_b = body->part[b].role;
             Contacts *ca = &f->contacts[a], *cb = &f->contacts[b];
             if (!yield_concerns(of_a, of_b) || ca->n == CONTACTS_MAX || cb->n == CONTACTS_MAX ||
-                !boxes_near(&f->box[a], &f->box[b], YIELD_ROOM * scale_of(f)) ||
-                !(is_near(f, a, b) || is_near(f, b, a)))
+                !boxes_near(f->box[a], f->box[b], YIELD_ROOM * scale_of(f)) || !(is_near(f, a, b) || is_near(f, b, a)))
                 continue;
             yield_contact(of_a, of_b, scale_of(f), &ca->contact[ca->n], &cb->contact[cb->n]);
             ca->contact[ca->n++].other = b;

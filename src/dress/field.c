@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-static const double FADE = 0.8;      /* of the carried displacement, in 1/30 s */
-static const double FELT = 0.0002;   /* metres on 1.70 m: a carried displacement below this is dropped */
+static const double FADE = 0.8;                   /* of the carried displacement, in 1/30 s */
+static const double FELT = 0.0002;                /* metres on 1.70 m: a carried displacement below this is dropped */
 static const double CAP_LOOSE = 7, CAP_TIGHT = 9; /* parts of the height */
 static const double AGREEMENT = 0.3; /* cosine: an analytic normal farther off one of its facets is not used */
 
@@ -79,8 +79,7 @@ Vec3 field_limit(Vec3 d, double cap, bool *capped) {
     return vec_scale(d, cap / sqrt(n2));
 }
 
-/* Derivatives of the displaced patch at a place, by the parameters of its owner. */
-static Vec3 analytic_normal(const Field *f, const Patch *root, unsigned levels, int place) {
+Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place) {
     const Lattice *l = f->lattice;
     int patch, i, j, id[4];
     lattice_owner(l, place, &patch, &i, &j);
@@ -96,7 +95,7 @@ static Vec3 analytic_normal(const Field *f, const Patch *root, unsigned levels, 
         }
     }
     Vec3 n = vec_cross(du, dw);
-    return l->fit->patch[patch].flip ? vec_scale(n, -1) : n;
+    return vec_unit_or(l->fit->patch[patch].flip ? vec_scale(n, -1) : n, vec(0, 1, 0));
 }
 
 static Vec3 face_normal(const Vec3 *position, const int v[3]) {
@@ -122,8 +121,7 @@ static bool find_bent(const Field *f, const Sheet *sheet, const Vec3 *position, 
 
 void field_normals(const Field *f, const Patch *root, const Sheet *sheet, const Vec3 *position, Vec3 *normal) {
     unsigned levels = field_levels(f);
-    for (int v = 0; v < sheet->nvertices; v++)
-        normal[v] = vec_unit_or(analytic_normal(f, root, levels, sheet->place[v]), vec(0, 1, 0));
+    for (int v = 0; v < sheet->nvertices; v++) normal[v] = field_normal(f, root, levels, sheet->place[v]);
     if (!find_bent(f, sheet, position, normal)) return;
     for (int v = 0; v < sheet->nvertices; v++)
         if (f->bent[v]) normal[v] = vec(0, 0, 0);

@@ -34,7 +34,7 @@ struct Dresser {
     Patch *root;
     Classifier classifier;
     Leaves by_rule, leaves; /* as the classification found them; as the solver refined them further */
-    Leaves grid;            /*  what is tessellated under a fixed topology */
+    Leaves grid;            /* what is tessellated under a fixed topology */
     Sheet sheet;
     Push push;
     Tester tester;
@@ -111,12 +111,17 @@ typedef struct {
     Residual own, other;
 } Wrong;
 
-static Wrong test_mesh(Dresser *d, const BodyFrame *body, CrossingCount *count) {
+/* What d->tester holds, against all that the garment keeps out of. */
+static Wrong test_built(Dresser *d, const BodyFrame *body, const Vec3 *position, int nvertices, CrossingCount *count) {
     Wrong w = {0};
-    snap_points(d, body->unit);
     tester_cross(&d->tester, body, d->fit.collide | d->fit.outside, &w.own, &w.other, count);
-    tester_inside(&d->tester, body, d->position, d->sheet.nvertices, &w.own, &w.other);
+    tester_inside(&d->tester, body, position, nvertices, &w.own, &w.other);
     return w;
+}
+
+static Wrong test_mesh(Dresser *d, const BodyFrame *body, CrossingCount *count) {
+    snap_points(d, body->unit);
+    return test_built(d, body, d->position, d->sheet.nvertices, count);
 }
 
 static int total(const Residual *r) { return r->edges + r->cloth + r->inside; }
@@ -144,22 +149,23 @@ static Wrong attempt(Dresser *d, const BodyFrame *body, FrameStats *stats, PushR
         stats->test_s += start - pushed;
         bool hopeless = solve && (total(&w.own) == 0 || d->tester.nbad > HEADWAY * before);
         if (!raised || round == ROUNDS_MAX || hopeless) return w;
+        (solve ? push_solve : push_settle)(&d->push, body, &d->sheet, result);
         if (solve) before = d->tester.nbad;
-        if (solve) push_solve(&d->push, body, &d->sheet, result);
-        else push_settle(&d->push, body, &d->sheet, result);
     }
 }
+
+static void lay_sheet(Dresser *d) { tessellate(&d->sheet, d->options.fixed_topology ? &d->grid : &d->leaves); }
 
 /* Splits to the deepest level round every vertex that must not be where it is. */
 static void split_where_bad(Dresser *d) {
     const Lattice *l = &d->lattice;
-    int patch, i, j, last = (1 << l->depth) - 1;
+    const LatticeStep *step = l->level[l->depth].step;
+    int patch, i, j;
     for (int k = 0; k < d->tester.nbad; k++) {
         lattice_owner(l, d->sheet.place[d->tester.bad[k]], &patch, &i, &j);
-        int a = i / l->detail, b = j / l->detail;
-        leaves_split(&d->leaves, patch, l->depth, a < last ? a : last, b < last ? b : last);
+        leaves_split(&d->leaves, patch, l->depth, step[i].cell, step[j].cell);
     }
-    tessellate(&d->sheet, d->options.fixed_topology ? &d->grid : &d->leaves);
+    lay_sheet(d);
 }
 
 /* Where an attempt leaves something of the parts that the garment is worn over, another is made from the
@@ -274,15 +280,13 @@ static Wrong rest_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats,
 static void frame_to_the_letter(Dresser *d, const BodyFrame *body, bool restart, Mesh *mesh, FrameStats *stats) {
     Literal *l = &d->literal;
     CrossingCount count = {0};
-    Wrong w = {0};
     literal_frame(l, d->root, body, restart, d->options.split, stats);
     *mesh = l->mesh;
     set_groups(d, l->first_of_patch, mesh);
     double start = clock_seconds();
     tester_build(&d->tester, mesh->position, mesh->edge, mesh->nedges, mesh->triangle, mesh->ntriangles,
                  d->fit.collide);
-    tester_cross(&d->tester, body, d->fit.collide | d->fit.outside, &w.own, &w.other, &count);
-    tester_inside(&d->tester, body, mesh->position, mesh->nvertices, &w.own, &w.other);
+    Wrong w = test_built(d, body, mesh->position, mesh->nvertices, &count);
     stats->test_s += clock_seconds() - start;
     final_test(d, body, &w, stats, &count);
     stats->pairs_all += count.pairs_all;
@@ -304,7 +308,7 @@ void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, M
     start = clock_seconds();
     bool is_global = d->options.method == METHOD_GLOBAL;
     field_carry(&d->push.field, body, dt, restart || is_global, &d->leaves);
-    tessellate(&d->sheet, d->options.fixed_topology ? &d->grid : &d->leaves);
+    lay_sheet(d);
     stats->mesh_s = clock_seconds() - start;
 
     Wrong w = (is_global ? rest_and_test : push_and_test)(d, body, stats, &found.count);

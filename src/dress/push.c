@@ -189,7 +189,7 @@ static bool turn_inside(const Push *p, const BodyFrame *body, int place, int par
         if (turn > 0) *n = vec_unit_or(vec_mad(*n, side, turn), side);
         return turn > 0;
     }
-    Vec3 outwards = lattice_normal(p->lattice, p->root, place);
+    Vec3 outwards = field_normal(&p->field, p->root, 0, place);
     if (vec_dot(*n, outwards) <= OUTWARDS) return false;
     *n = vec_scale(outwards, -1);
     return true;
@@ -209,13 +209,22 @@ static double way_out(const Push *p, const BodyFrame *body, int place, int part,
     return way;
 }
 
+/* How far x, `distance` away from a part, must go along *n, the outward normal, to keep its clearance from
+   it: as far as there is room. 0: it may stay. */
+static double way_asked(const Push *p, const BodyFrame *body, int place, unsigned near, int part, Vec3 x,
+                        double clearance, double distance, Vec3 *n) {
+    if (clearance - distance <= SLACK * clearance) return 0;
+    double wanted = room_for(body, near, p->lattice->collide[place], part, x, clearance, distance, *n);
+    return wanted - distance <= SLACK * clearance ? 0 : way_out(p, body, place, part, x, wanted, distance, n);
+}
+
 /* Pushes one sample out of the parts it is too near to. Distances change no faster than the
    point moves, so a sample that has been found clear is left alone until it has used up its
    slack. Returns the depth of the worst violation that was acted on. */
 static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, PushSample *s, PushResult *result) {
     if (s->budget >= 0 && is_pinched(p, s)) return 0; /* it has had its say */
     double clearance = p->clearance[s->vertex], most = 0, slack = INFINITY;
-    unsigned worn = p->lattice->collide[sheet->place[s->vertex]];
+    int place = sheet->place[s->vertex];
     Vec3 x = sample_point(p, sheet, s);
     if (s->slack > 0 && vec_dist(x, s->seen) < s->slack) return 0;
     s->seen = x;
@@ -223,12 +232,9 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
         if (!(s->near >> part & 1)) continue;
         Vec3 n;
         double distance = body_frame_distance(body, part, x, clearance + REACH * p->field.scale, &n);
-        double depth = clearance - distance;
-        slack = fmin(slack, SLACK * clearance - depth);
-        if (depth <= SLACK * clearance) continue;
-        double wanted = room_for(body, s->near, worn, part, x, clearance, distance, n);
-        if (wanted - distance <= SLACK * clearance) continue;
-        depth = way_out(p, body, sheet->place[s->vertex], part, x, wanted, distance, &n);
+        slack = fmin(slack, SLACK * clearance - (clearance - distance));
+        double depth = way_asked(p, body, place, s->near, part, x, clearance, distance, &n);
+        if (depth <= 0) continue;
         if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->field.scale;
         s->spent += depth;
         s->net = vec_mad(s->net, n, depth);
@@ -277,10 +283,8 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
             if (!(near >> part & 1)) continue;
             Vec3 n;
             double distance = body_frame_distance(body, part, *x, clearance, &n);
-            if (clearance - distance <= SLACK * clearance) continue;
-            double wanted = room_for(body, near, worn, part, *x, clearance, distance, n);
-            if (wanted - distance <= SLACK * clearance) continue;
-            double way = way_out(p, body, place, part, *x, wanted, distance, &n);
+            double way = way_asked(p, body, place, near, part, *x, clearance, distance, &n);
+            if (way <= 0) continue;
             if (!(worn & part_bit(body, part)) && way > OFFSET_MAX * p->field.scale) continue; /* out of reach */
             Vec3 longer = field_limit(vec_mad(*o, n, way), OFFSET_MAX * p->field.scale, capped);
             *x = vec_add(*x, vec_sub(longer, *o));
@@ -335,13 +339,6 @@ void push_back(Push *p, const Sheet *sheet) {
     find_points(p, sheet);
 }
 
-/* Is x inside any of `parts`? */
-static bool is_inside(const BodyFrame *body, unsigned parts, Vec3 x) {
-    for (int k = 0; k < body->body->nparts; k++)
-        if (parts & part_bit(body, k) && body_frame_distance(body, k, x, 0, NULL) < 0) return true;
-    return false;
-}
-
 void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
     result->active = result->pinched = 0;
     result->displacement = 0;
@@ -351,6 +348,6 @@ void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, Push
     for (int k = 0; k < p->nsamples; k++) {
         const PushSample *s = &p->sample[k];
         bool pushed = s->budget >= 0;
-        result->pinched += pushed && is_inside(body, movers(p, sheet->place[s->vertex]), p->point[s->vertex]);
+        result->pinched += pushed && body_frame_inside(body, movers(p, sheet->place[s->vertex]), p->point[s->vertex]);
     }
 }

@@ -81,10 +81,8 @@ void facets_of_cell(int n, int first, Triangle *out) {
 }
 
 static bool any_inside(const BodyFrame *body, unsigned parts, const Vec3 *points, int n) {
-    for (int p = 0; p < body->body->nparts; p++)
-        if (parts & part_bit(body, p))
-            for (int v = 0; v < n; v++)
-                if (body_frame_distance(body, p, points[v], 0, NULL) < 0) return true;
+    for (int v = 0; v < n; v++)
+        if (body_frame_inside(body, parts, points[v])) return true;
     return false;
 }
 
@@ -143,15 +141,14 @@ static void open_corners(const Classifier *c, int level, int ncells, Leaves *lea
    the patches that have a corner of a deepest cell inside of one, once. */
 static void open_to_limbs(const Classifier *c, const Patch *root, const BodyFrame *body, Leaves *leaves) {
     const Lattice *l = c->lattice;
-    int cells = 1 << l->depth, last = cells - 1;
+    const LatticeStep *step = l->level[1].step;
     for (int p = 0; p < l->fit->npatches; p++)
-        for (int a = 0; a <= cells; a++)
-            for (int b = 0; b <= cells; b++) {
-                int place = lattice_place(l, p, a * l->detail, b * l->detail);
+        for (int i = 0; i <= l->side; i += l->detail)
+            for (int j = 0; j <= l->side; j += l->detail) {
+                int place = lattice_place(l, p, i, j);
                 unsigned outside = l->outside[place];
-                if (outside && any_inside(body, outside, (Vec3[1]){lattice_point(l, root, place)}, 1))
-                    leaves_split(leaves, p, 1, (a < last ? a : last) >> (l->depth - 1),
-                                 (b < last ? b : last) >> (l->depth - 1));
+                if (outside && body_frame_inside(body, outside, lattice_point(l, root, place)))
+                    leaves_split(leaves, p, 1, step[i].cell, step[j].cell);
             }
 }
 
