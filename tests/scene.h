@@ -54,4 +54,12 @@ static inline void scene_leg(const Scene *s, Pose *p, bool left, double hip, dou
     scene_bend(s, p, (Role)(thigh + 1), (Role)(thigh + 3), -knee);
 }
 
+/* One frame in a pose. */
+static inline FrameStats scene_frame(Scene *s, Dresser *d, const Pose *pose, double dt, bool restart, Mesh *mesh) {
+    FrameStats stats;
+    body_frame_pose(&s->posed, pose);
+    dresser_frame(d, &s->posed, dt, restart, mesh, &stats);
+    return stats;
+}
+
 #endif

@@ -1,57 +1,22 @@
 /* The paper's method to the letter: a flat patch that a leg sticks through, with motions whose
    outcome can be told beforehand; counts against the classification; and that testing without
    culling finds what testing with it finds. */
-#include <stdlib.h>
-
 #include "dress/literal.h"
-#include "tap.h"
+#include "scene.h"
 
-static Arena arena;
-static Error error;
-
-static void need(bool good) {
-    if (good) return;
-    error_print(&error, stderr);
-    exit(1);
-}
-
-typedef struct {
-    Figure figure;
-    Body body;
-    Garment *garment;
-    BodyFrame posed;
-} Scene;
-
-static void open_scene(Scene *s) {
-    s->figure = figure_reference();
-    s->garment = ARENA_NEW(&arena, Garment, 1, &error);
-    need(s->garment && garment_read("garments/paper-skirt.garment", &arena, s->garment, &error));
-    need(body_fit(body_default(), &s->figure, 16, &arena, &s->body, &error));
-    need(body_frame_init(&s->posed, &s->body, 1, &arena, &error));
-}
-
-static Dresser *dress(const Scene *s, Method method, SplitRule split) {
-    Dresser *d = NULL;
-    DressOptions options = {.method = method, .split = split, .detail = 4};
-    need(dresser_open(s->garment, &s->figure, &s->body, &options, &arena, &d, &error));
-    return d;
+static Dresser *dress(Scene *s, Method method, SplitRule split) {
+    return scene_dresser(s, (DressOptions){.method = method, .split = split, .detail = 4});
 }
 
 /* The left thigh and all below it raised to the front. */
-static Pose raised(const Figure *f, double degrees) {
-    static const Role leg[] = {ROLE_LEFT_THIGH, ROLE_LEFT_SHIN, ROLE_LEFT_FOOT, ROLE_LEFT_TOE};
+static Pose raised(const Scene *s, double degrees) {
     Pose p = figure_rest_pose();
-    Mat3 turn = mat_axis_angle(vec(-1, 0, 0), degrees * PI / 180);
-    Vec3 hip = f->start[ROLE_LEFT_THIGH];
-    for (int k = 0; k < 4; k++) p.bone[leg[k]] = (Rigid){turn, vec_sub(hip, mat_apply(turn, hip))};
+    scene_leg(s, &p, true, degrees, 0);
     return p;
 }
 
 static FrameStats frame(Dresser *d, Scene *s, Pose pose, bool restart, Mesh *mesh) {
-    FrameStats stats;
-    body_frame_pose(&s->posed, &pose);
-    dresser_frame(d, &s->posed, 1 / 30.0, restart, mesh, &stats);
-    return stats;
+    return scene_frame(s, d, &pose, 1 / 30.0, restart, mesh);
 }
 
 static long long collider_edges(const Scene *s) {
@@ -64,8 +29,8 @@ static long long collider_edges(const Scene *s) {
 static void counts_are_the_papers(Scene *s) {
     Mesh mesh;
     long long facet_pairs = 2 * 4 * 4 * collider_edges(s);
-    FrameStats u = frame(dress(s, METHOD_PAPER, SPLIT_UNIFORM), s, raised(&s->figure, 60), true, &mesh);
-    FrameStats a = frame(dress(s, METHOD_PAPER, SPLIT_ADAPTIVE), s, raised(&s->figure, 60), true, &mesh);
+    FrameStats u = frame(dress(s, METHOD_PAPER, SPLIT_UNIFORM), s, raised(s, 60), true, &mesh);
+    FrameStats a = frame(dress(s, METHOD_PAPER, SPLIT_ADAPTIVE), s, raised(s, 60), true, &mesh);
     FrameStats rest = frame(dress(s, METHOD_PAPER, SPLIT_ADAPTIVE), s, figure_rest_pose(), true, &mesh);
     OK(u.nodes == 32 && u.leaves == 32 && u.tests == 32 * facet_pairs, "uniform: 32 patches, all pairs of each");
     OK(a.nodes > 2 && a.leaves == 2 + 3 * (a.nodes - 2) / 4, "adaptive: a split makes four of one (%d nodes)", a.nodes);
@@ -79,8 +44,8 @@ static void rules_agree(Scene *s) {
     Dresser *ours = dress(s, METHOD_PUSH, SPLIT_ADAPTIVE), *paper = dress(s, METHOD_PAPER, SPLIT_ADAPTIVE);
     bool same = true;
     for (int degrees = 0; degrees <= 80; degrees += 5) {
-        FrameStats a = frame(ours, s, raised(&s->figure, degrees), true, &mesh);
-        FrameStats b = frame(paper, s, raised(&s->figure, degrees), true, &mesh);
+        FrameStats a = frame(ours, s, raised(s, degrees), true, &mesh);
+        FrameStats b = frame(paper, s, raised(s, degrees), true, &mesh);
         same = same && a.hits_before == b.hits_before;
         if (a.nodes == b.nodes) same = same && a.tests == b.tests;
     }
@@ -91,17 +56,17 @@ static void rules_agree(Scene *s) {
 static void the_leg_pushes_where_it_goes(Scene *s) {
     Mesh mesh;
     Dresser *d = dress(s, METHOD_PAPER, SPLIT_ADAPTIVE);
-    frame(d, s, raised(&s->figure, 26), true, &mesh);
-    FrameStats up = frame(d, s, raised(&s->figure, 30), false, &mesh);
+    frame(d, s, raised(s, 26), true, &mesh);
+    FrameStats up = frame(d, s, raised(s, 30), false, &mesh);
     OK(up.hits_before > 0 && !up.capped && up.displacement > 0, "a rising leg pushes the cloth out (%.1f cm, %d steps)",
        100 * up.displacement, up.sweeps);
-    FrameStats far = frame(d, s, raised(&s->figure, 60), false, &mesh);
+    FrameStats far = frame(d, s, raised(s, 60), false, &mesh);
     OK(far.capped && far.sweeps == 40, "as far as the cap allows");
-    FrameStats still = frame(d, s, raised(&s->figure, 60), false, &mesh);
+    FrameStats still = frame(d, s, raised(s, 60), false, &mesh);
     OK(still.capped && still.displacement == 0, "a leg at rest has no direction: hits stay");
-    FrameStats first = frame(d, s, raised(&s->figure, 60), true, &mesh);
+    FrameStats first = frame(d, s, raised(s, 60), true, &mesh);
     OK(first.capped && first.displacement == 0 && first.residual_edges > 0, "nor has the first frame; it is told");
-    FrameStats down = frame(d, s, raised(&s->figure, 55), false, &mesh);
+    FrameStats down = frame(d, s, raised(s, 55), false, &mesh);
     OK(down.hits_before > 0 && down.residual_edges + down.residual_cloth + down.inside > 0,
        "a falling leg pulls the cloth in: it still shows");
     OK(down.sweeps <= 40 && down.displacement <= 40 * 0.005 + 1e-9, "never beyond the cap");
@@ -110,12 +75,12 @@ static void the_leg_pushes_where_it_goes(Scene *s) {
 /* Every leaf is a piece of its own, on the surface where it did not move. */
 static void the_mesh_is_in_pieces(Scene *s) {
     Mesh mesh;
-    FrameStats stats = frame(dress(s, METHOD_PAPER, SPLIT_ADAPTIVE), s, raised(&s->figure, 60), true, &mesh);
+    FrameStats stats = frame(dress(s, METHOD_PAPER, SPLIT_ADAPTIVE), s, raised(s, 60), true, &mesh);
     int n = stats.leaves;
     OK(mesh.nvertices == n * 25 && mesh.ntriangles == n * 32 && mesh.nedges == n * 56,
        "a piece of 25 vertices, 32 triangles and 56 edges for each of %d leaves", n);
     Mesh again = mesh;
-    need(mesh_find_edges(&again, &arena, &error));
+    need(s, mesh_find_edges(&again, &s->arena, &s->error));
     OK(again.nedges == mesh.nedges, "its edges are those of its triangles");
     bool in_order = true, outward = true;
     for (int k = 0; k < mesh.nedges; k++) in_order = in_order && mesh.edge[k].v[0] < mesh.edge[k].v[1];
@@ -134,18 +99,19 @@ static void the_mesh_is_in_pieces(Scene *s) {
 static void the_global_shape_stays(Scene *s) {
     Mesh mesh;
     Dresser *d = dress(s, METHOD_GLOBAL, SPLIT_ADAPTIVE);
-    FrameStats a = frame(d, s, raised(&s->figure, 60), true, &mesh);
-    FrameStats b = frame(d, s, raised(&s->figure, 60), false, &mesh);
+    FrameStats a = frame(d, s, raised(s, 60), true, &mesh);
+    FrameStats b = frame(d, s, raised(s, 60), false, &mesh);
     OK(a.displacement == 0 && a.residual_edges > 0 && a.sweeps == 0, "without local deformation the leg shows");
     OK(a.residual_edges == b.residual_edges && a.cells == b.cells, "nothing is carried");
 }
 
 static void plain_tests_find_the_same(Scene *s) {
-    Pose pose = raised(&s->figure, 60);
+    Pose pose = raised(s, 60);
     body_frame_pose(&s->posed, &pose);
     enum { MOST = 1 << 16 };
-    Crossing *one = ARENA_NEW(&arena, Crossing, MOST, &error), *other = ARENA_NEW(&arena, Crossing, MOST, &error);
-    need(one && other);
+    Crossing *one = ARENA_NEW(&s->arena, Crossing, MOST, &s->error),
+             *other = ARENA_NEW(&s->arena, Crossing, MOST, &s->error);
+    need(s, one && other);
     CrossingCount culled = {0}, plain = {0};
     int pairs = 0, found = 0, extra = 0;
     for (int p = 0; p < s->body.nparts; p++)
@@ -166,15 +132,14 @@ static void plain_tests_find_the_same(Scene *s) {
 }
 
 int main(void) {
-    Scene *s = ARENA_NEW(&arena, Scene, 1, &error);
-    need(s != NULL);
-    open_scene(s);
+    Scene scene, *s = &scene;
+    scene_open(s, "paper-skirt");
     counts_are_the_papers(s);
     rules_agree(s);
     the_leg_pushes_where_it_goes(s);
     the_mesh_is_in_pieces(s);
     the_global_shape_stays(s);
     plain_tests_find_the_same(s);
-    arena_free(&arena);
+    arena_free(&s->arena);
     return tap_done();
 }

@@ -70,7 +70,8 @@ static inline bool neighbours_hit(const bool hit[4]) {
    hit is split in four, and all four are tested; where two that share a side are hit, splitting
    ends there; else those that are hit are split again, down to the lattice's depth. *by_rule and
    the numbers in *out are those of the rule alone; in *leaves the corners of the leaves that are
-   hit are opened besides (see leaves_open). count.pairs_all is what the paper counts: nodes
+   hit are opened besides (see leaves_open), and root patches that a limb reaches into from outside
+   are split once. count.pairs_all is what the paper counts: nodes
    x 2 detail^2 x edges of the garment's colliders. */
 void classify(Classifier *c, const Patch *root, const BodyFrame *body, SplitRule rule, Leaves *by_rule, Leaves *leaves,
               Classification *out);
