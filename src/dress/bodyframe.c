@@ -28,12 +28,15 @@ static void find_box(BodyFrame *f, int part) {
     f->box[part] = (Box){vec_sub(b.low, room), vec_add(b.high, room)};
 }
 
-/* Distance from a part as it is without others. */
-static double own_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal) {
-    if (body_frame_far(f, part, p, far)) return far;
+static double distance_in_box(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal) {
     double d = body_distance(&f->body->part[part], rigid_apply(f->to_part[part], p), far, normal);
     if (normal && d < far) *normal = mat_apply(f->to_world[part], *normal);
     return d;
+}
+
+/* Distance from a part as it is without others. Most questions end at the box, so that much is inline. */
+static inline double own_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal) {
+    return body_frame_far(f, part, p, far) ? far : distance_in_box(f, part, p, far, normal);
 }
 
 static double scale_of(const BodyFrame *f) { return f->body->height / 1.70; }
@@ -112,7 +115,7 @@ static double way_in(const BodyFrame *f, int p, Vec3 skin, double most, Vec3 *n)
     enum { STEPS = 6, HALVINGS = 4 };
     Vec3 inwards = vec_scale(*n, -1);
     double level = own_distance(f, p, skin, INFINITY, n);
-    double out = 0, in = 0, before = body_frame_distance(f, p, skin, INFINITY, NULL) - level, here = before;
+    double out = 0, in = 0, before = level + give_way(f, p, skin, level, n) - level, here = before;
     if (before <= 0) return 0;
     for (int k = 1; here > 0; k++) {
         if (k > STEPS) return most;
@@ -130,11 +133,12 @@ static double way_in(const BodyFrame *f, int p, Vec3 skin, double most, Vec3 *n)
     return out + (in - out) * before / (before - here);
 }
 
-/* Is any part that this one gives way to near p at all? */
-static bool is_pressed(const BodyFrame *f, int part, Vec3 p) {
+/* May any part that this one gives way to be near p at all? */
+static bool may_be_pressed(const BodyFrame *f, int part, Vec3 p) {
     const Contacts *contacts = &f->contacts[part];
+    double room = YIELD_ROOM * scale_of(f);
     for (int k = 0; k < contacts->n; k++)
-        if (body_frame_near(f, contacts->contact[k].other, p, YIELD_ROOM * scale_of(f))) return true;
+        if (!body_frame_far(f, contacts->contact[k].other, p, room)) return true;
     return false;
 }
 
@@ -144,7 +148,7 @@ static void yield_skin(BodyFrame *f, int p) {
     double most = 0;
     for (int k = 0; k < f->contacts[p].n; k++) most = fmax(most, f->contacts[p].contact[k].most);
     for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++) {
-        if (!is_pressed(f, p, f->position[v])) continue;
+        if (!may_be_pressed(f, p, f->position[v])) continue;
         Vec3 n = f->normal[v];
         double way = way_in(f, p, f->position[v], most, &n);
         if (way <= 0) continue;
