@@ -30,8 +30,8 @@ void body_frame_pose(BodyFrame *f, const Pose *pose);
    See body_distance for `far`. */
 double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal);
 
-/* May p be nearer to a part than `far`? Asked of the part as it is where nothing presses on it. */
-bool body_frame_near(const BodyFrame *f, int part, Vec3 p, double far);
+/* The same from a part as it is where nothing presses on it: never more than that, and cheaper. */
+double body_frame_unpressed(const BodyFrame *f, int part, Vec3 p, double far);
 
 /* Is a world point inside any of `parts` (bits 1 << role)? */
 bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p);

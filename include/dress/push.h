@@ -3,6 +3,7 @@
 #define DRESS_PUSH_H
 
 #include "dress/field.h"
+#include "dress/near.h"
 
 /* A mesh vertex near the body, with the level vertices that move it. Private. */
 typedef struct {
@@ -26,6 +27,8 @@ typedef struct {
     Vec3 *rest;                       /* per lattice place: in the bind pose */
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
     double *clearance;                /* per mesh vertex: distance asked for */
+    Near *near;                       /* per mesh vertex */
+    bool near_known;                  /* since the frame or the sheet changed */
     PushSample *sample;
     int nsamples;
     int *raised, nraised;             /* mesh vertices that were asked for more */

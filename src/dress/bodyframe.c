@@ -69,8 +69,8 @@ double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec
     return d;
 }
 
-bool body_frame_near(const BodyFrame *f, int part, Vec3 p, double far) {
-    return own_distance(f, part, p, far, NULL) < far;
+double body_frame_unpressed(const BodyFrame *f, int part, Vec3 p, double far) {
+    return own_distance(f, part, p, far, NULL);
 }
 
 bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p) {

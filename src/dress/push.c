@@ -14,7 +14,6 @@
 enum { SWEEPS_MAX = 30, STALL = 5, ROUNDS_MAX = 3, SETTLES_MAX = 4, STEPS_OUT = 6 };
 static const double REACH = 0.04;      /* vertices farther from the body are not swept */
 static const double SLACK = 0.1;       /* share of the clearance that may be missing after sweeps */
-static const double LIPSCHITZ = 0.8;   /* distances are of first order: trust this share of a slack */
 static const double PIN_GIVES = 0.2;   /* a pinned level vertex moves this share of what a free one would */
 static const double NORM_MIN = 0.1;    /* a sample that level vertices hardly move must not fling them */
 static const double BUDGET = 0.02;     /* a sample may issue twice its first violation and this */
@@ -34,9 +33,10 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     p->global = ARENA_NEW(arena, Vec3, places, e);
     p->point = ARENA_NEW(arena, Vec3, places, e);
     p->clearance = ARENA_NEW(arena, double, places, e);
+    p->near = ARENA_NEW(arena, Near, places, e);
     p->sample = ARENA_NEW(arena, PushSample, places, e);
     p->raised = ARENA_NEW(arena, int, places, e);
-    return p->active && p->rest && p->global && p->point && p->clearance && p->sample && p->raised;
+    return p->active && p->rest && p->global && p->point && p->clearance && p->near && p->sample && p->raised;
 }
 
 void push_bind(Push *p, const Patch *root) {
@@ -84,8 +84,16 @@ static Vec3 sample_point(const Push *p, const Sheet *sheet, const PushSample *s)
 static unsigned parts_near(const BodyFrame *body, unsigned parts, Vec3 x, double far) {
     unsigned near = 0;
     for (int k = 0; k < body->body->nparts; k++)
-        if (parts & part_bit(body, k) && body_frame_near(body, k, x, far)) near |= 1u << k;
+        if (parts & part_bit(body, k) && body_frame_unpressed(body, k, x, far) < far) near |= 1u << k;
     return near;
+}
+
+/* Those of `parts` (bits 1 << part) that have one of the roles (bits 1 << role). */
+static unsigned of_roles(const BodyFrame *body, unsigned parts, unsigned roles) {
+    unsigned found = 0;
+    for (int k = 0; parts >> k; k++)
+        if (parts >> k & 1 && roles & part_bit(body, k)) found |= 1u << k;
+    return found;
 }
 
 /* Parts that move the surface at a place: those that it is worn over, and those that the garment is worn
@@ -102,7 +110,8 @@ static unsigned parts_at(const Push *p, int place) { return p->lattice->collide[
 static void add_sample(Push *p, const Sheet *sheet, int vertex, unsigned near) {
     const Lattice *l = p->lattice;
     PushSample *s = &p->sample[p->nsamples++];
-    *s = (PushSample){.vertex = vertex, .near = near, .budget = -1};
+    *s = (PushSample){.vertex = vertex, .near = near, .budget = -1, .seen = p->near[vertex].seen};
+    s->slack = NEAR_LIPSCHITZ * (p->near[vertex].distance - (1 - SLACK) * p->clearance[vertex]);
     int patch, i, j, id[4];
     double weight[4];
     lattice_owner(l, sheet->place[vertex], &patch, &i, &j);
@@ -124,8 +133,10 @@ static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
     double far = (PUSH_MARGIN + REACH) * p->field.scale;
     p->nsamples = 0;
     find_points(p, sheet);
+    near_find(p->near, body, sheet, p->point, far, p->near_known);
+    p->near_known = true;
     for (int v = 0; v < sheet->nvertices; v++) {
-        unsigned near = parts_near(body, movers(p, sheet->place[v]), p->point[v], far);
+        unsigned near = of_roles(body, p->near[v].parts, movers(p, sheet->place[v]));
         if (near) add_sample(p, sheet, v, near);
     }
 }
@@ -242,7 +253,7 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
         x = sample_point(p, sheet, s);
         most = fmax(most, depth);
     }
-    s->slack = LIPSCHITZ * slack;
+    s->slack = NEAR_LIPSCHITZ * slack;
     return most;
 }
 
@@ -276,6 +287,7 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
     int place = sheet->place[vertex];
     double clearance = p->clearance[vertex];
     Vec3 *o = &p->field.offset[place], *x = &p->point[vertex];
+    if (near_none(&p->near[vertex], *x, clearance)) return;
     unsigned near = parts_near(body, parts_at(p, place), *x, clearance), worn = p->lattice->collide[place];
     for (int step = 0; step < SETTLES_MAX && near; step++) {
         bool moved = false;
@@ -297,6 +309,7 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
 
 void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *sheet) {
     p->nraised = 0;
+    p->near_known = false;
     p->root = root;
     find_active(p, leaves);
     for (int v = 0; v < sheet->nvertices; v++) {
