@@ -12,7 +12,6 @@ typedef struct {
     int start[LATTICE_LEVELS + 1]; /* level l's vertices are start[l]..start[l + 1) */
     Vec3 *displacement;            /* per level vertex */
     Vec3 *offset;                  /* per lattice place: the last millimetres of single vertices */
-    bool *bent;                    /* private: mesh vertices whose facets leave the patch */
     Mat3 pelvis;                   /* of the frame that the displacement belongs to */
 } Field;
 
@@ -39,10 +38,6 @@ static inline bool field_is_zero(Vec3 d) { return d.x == 0 && d.y == 0 && d.z ==
 
 /* Outward unit normal of the displaced patches at a place (analytic), or of the root patches where `levels` is 0. */
 Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place);
-
-/* Unit normals of the displaced patches at the sheet's vertices (analytic). Where offsets bend the
-   mesh away from its patches, the mean of the facets' normals round the vertex. */
-void field_normals(const Field *f, const Patch *root, const Sheet *sheet, const Vec3 *position, Vec3 *normal);
 
 /* The displaced patch over cell (a, b) of a level, a leaf or finer: the part of the root patch and
    the field over it, which is bicubic there. Offsets are left out. */

@@ -7,7 +7,6 @@
 static const double FADE = 0.8;                   /* of the carried displacement, in 1/30 s */
 static const double FELT = 0.0002;                /* metres on 1.70 m: a carried displacement below this is dropped */
 static const double CAP_LOOSE = 7, CAP_TIGHT = 9; /* parts of the height */
-static const double AGREEMENT = 0.3; /* cosine: an analytic normal farther off one of its facets is not used */
 
 bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e) {
     *f = (Field){.lattice = lattice, .scale = lattice->fit->height / 1.70, .pelvis = mat_identity()};
@@ -16,8 +15,7 @@ bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e) {
         f->start[l + 1] = f->start[l] + (l <= lattice->depth ? lattice->level[l].count : 0);
     f->displacement = ARENA_NEW(arena, Vec3, f->start[LATTICE_LEVELS], e);
     f->offset = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
-    f->bent = ARENA_NEW(arena, bool, lattice->nplaces, e);
-    return f->displacement && f->offset && f->bent;
+    return f->displacement && f->offset;
 }
 
 void field_forget(Field *f) {
@@ -96,44 +94,6 @@ Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place)
     }
     Vec3 n = vec_cross(du, dw);
     return vec_unit_or(l->fit->patch[patch].flip ? vec_scale(n, -1) : n, vec(0, 1, 0));
-}
-
-static Vec3 face_normal(const Vec3 *position, const int v[3]) {
-    return vec_cross(vec_sub(position[v[1]], position[v[0]]), vec_sub(position[v[2]], position[v[0]]));
-}
-
-/* Marks the vertices whose normal is too far off one of their facets. */
-static bool find_bent(const Field *f, const Sheet *sheet, const Vec3 *position, const Vec3 *normal) {
-    bool any = false;
-    for (int v = 0; v < sheet->nvertices; v++) f->bent[v] = false;
-    for (int t = 0; t < sheet->ntriangles; t++) {
-        const int *v = sheet->triangle[t].v;
-        Vec3 face = face_normal(position, v);
-        double least2 = AGREEMENT * AGREEMENT * vec_dot(face, face);
-        for (int c = 0; c < 3; c++) {
-            double along = vec_dot(normal[v[c]], face);
-            if (along > 0 && along * along >= least2) continue;
-            any = f->bent[v[c]] = true;
-        }
-    }
-    return any;
-}
-
-void field_normals(const Field *f, const Patch *root, const Sheet *sheet, const Vec3 *position, Vec3 *normal) {
-    unsigned levels = field_levels(f);
-    for (int v = 0; v < sheet->nvertices; v++) normal[v] = field_normal(f, root, levels, sheet->place[v]);
-    if (!find_bent(f, sheet, position, normal)) return;
-    for (int v = 0; v < sheet->nvertices; v++)
-        if (f->bent[v]) normal[v] = vec(0, 0, 0);
-    for (int t = 0; t < sheet->ntriangles; t++) {
-        const int *v = sheet->triangle[t].v;
-        if (!f->bent[v[0]] && !f->bent[v[1]] && !f->bent[v[2]]) continue;
-        Vec3 face = vec_unit_or(face_normal(position, v), vec(0, 0, 0));
-        for (int c = 0; c < 3; c++)
-            if (f->bent[v[c]]) normal[v[c]] = vec_add(normal[v[c]], face);
-    }
-    for (int v = 0; v < sheet->nvertices; v++)
-        if (f->bent[v]) normal[v] = vec_unit_or(normal[v], vec(0, 1, 0));
 }
 
 /* The field of one level over cell (a, b) of a deeper one, as a patch: of the cell of that level

@@ -14,6 +14,7 @@
 #include "base/clock.h"
 #include "dress/follow.h"
 #include "dress/literal.h"
+#include "dress/normals.h"
 #include "dress/push.h"
 #include "dress/residual.h"
 
@@ -39,6 +40,7 @@ struct Dresser {
     Push push;
     Tester tester;
     Literal literal;
+    Normals normals;
     Vec3 *position, *normal; /* of the written mesh */
     double *u, *w;
     MeshGroup *group;
@@ -76,7 +78,8 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
         !classifier_reserve(&d->classifier, &d->lattice, arena, e) ||
         !leaves_reserve(&d->by_rule, &d->lattice, arena, e) || !leaves_reserve(&d->leaves, &d->lattice, arena, e) ||
         !leaves_reserve(&d->grid, &d->lattice, arena, e) || !sheet_reserve(&d->sheet, &d->lattice, arena, e) ||
-        !push_reserve(&d->push, &d->lattice, arena, e) || !make_groups(d, arena, e))
+        !push_reserve(&d->push, &d->lattice, arena, e) || !normals_reserve(&d->normals, &d->lattice, arena, e) ||
+        !make_groups(d, arena, e))
         return false;
     int triangles = 2 * d->fit.npatches * d->lattice.side * d->lattice.side, places = d->lattice.nplaces;
     d->root = ARENA_NEW(arena, Patch, d->fit.npatches, e);
@@ -226,7 +229,7 @@ static void set_groups(Dresser *d, const int *first_of_patch, Mesh *mesh) {
 static void fill_mesh(Dresser *d, Mesh *mesh) {
     const Sheet *s = &d->sheet;
     int n = d->lattice.side + 1;
-    field_normals(&d->push.field, d->root, s, d->position, d->normal);
+    normals_find(&d->normals, &d->push.field, d->root, s, d->position, d->normal);
     for (int v = 0; v < s->nvertices; v++) {
         int owner = d->lattice.owner[s->place[v]];
         d->u[v] = (double)(owner / n % n) / d->lattice.side;
