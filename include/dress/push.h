@@ -21,7 +21,9 @@ typedef struct {
 typedef struct {
     const Lattice *lattice;
     Field field;
-    Field kept;                       /* of another attempt */
+    Field kept;                       /* of another attempt, */
+    Vec3 *kept_point;                 /* and where it left the vertices */
+    int nkept;
     bool *active;                     /* per level vertex: all cells round it are split to its level */
     const Patch *root;                /* of this frame */
     Vec3 *rest;                       /* per lattice place: in the bind pose */
@@ -61,12 +63,13 @@ void push_rest(Push *p, const Sheet *sheet);
 bool push_raise(Push *p, int vertex, double by);
 void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
 
-/* Keeps the displacement, to take it back after another attempt. */
-void push_keep(Push *p);
-void push_back(Push *p, const Sheet *sheet);
-
 /* Fills what the solution amounts to: active, pinched, displacement. */
 void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
+
+/* Keeps a solution of that many vertices, to take it back, with the sheet that it was made for, after
+   another attempt. */
+void push_keep(Push *p, int nvertices);
+void push_back(Push *p);
 
 /* The distance that cloth keeps from the body, metres on a figure of 1.70 m. */
 #define PUSH_MARGIN 0.003

@@ -18,6 +18,9 @@ MUST_CHECK bool leaves_reserve(Leaves *leaves, const Lattice *lattice, Arena *ar
 /* All leaves at one level. */
 void leaves_fill(Leaves *leaves, int level);
 
+/* Leaves of one lattice. */
+void leaves_copy(const Leaves *from, Leaves *to);
+
 /* Splits until the leaves over cell (a, b) of `level` are at that level or deeper. */
 void leaves_split(Leaves *leaves, int patch, int level, int a, int b);
 

@@ -35,6 +35,7 @@ struct Dresser {
     Patch *root;
     Classifier classifier;
     Leaves by_rule, leaves; /* as the classification found them; as the solver refined them further */
+    Leaves kept;            /* those of the best attempt so far */
     Leaves grid;            /* what is tessellated under a fixed topology */
     Sheet sheet;
     Push push;
@@ -77,9 +78,9 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
         !lattice_build(&d->fit, detail, depth, arena, &d->lattice, e) ||
         !classifier_reserve(&d->classifier, &d->lattice, arena, e) ||
         !leaves_reserve(&d->by_rule, &d->lattice, arena, e) || !leaves_reserve(&d->leaves, &d->lattice, arena, e) ||
-        !leaves_reserve(&d->grid, &d->lattice, arena, e) || !sheet_reserve(&d->sheet, &d->lattice, arena, e) ||
-        !push_reserve(&d->push, &d->lattice, arena, e) || !normals_reserve(&d->normals, &d->lattice, arena, e) ||
-        !make_groups(d, arena, e))
+        !leaves_reserve(&d->kept, &d->lattice, arena, e) || !leaves_reserve(&d->grid, &d->lattice, arena, e) ||
+        !sheet_reserve(&d->sheet, &d->lattice, arena, e) || !push_reserve(&d->push, &d->lattice, arena, e) ||
+        !normals_reserve(&d->normals, &d->lattice, arena, e) || !make_groups(d, arena, e))
         return false;
     int triangles = 2 * d->fit.npatches * d->lattice.side * d->lattice.side, places = d->lattice.nplaces;
     d->root = ARENA_NEW(arena, Patch, d->fit.npatches, e);
@@ -151,7 +152,10 @@ static Wrong attempt(Dresser *d, const BodyFrame *body, FrameStats *stats, PushR
         start = clock_seconds();
         stats->test_s += start - pushed;
         bool hopeless = solve && (total(&w.own) == 0 || d->tester.nbad > HEADWAY * before);
-        if (!raised || round == ROUNDS_MAX || hopeless) return w;
+        if (!raised || round == ROUNDS_MAX || hopeless) {
+            push_measure(&d->push, body, &d->sheet, result);
+            return w;
+        }
         (solve ? push_solve : push_settle)(&d->push, body, &d->sheet, result);
         if (solve) before = d->tester.nbad;
     }
@@ -171,6 +175,19 @@ static void split_where_bad(Dresser *d) {
     lay_sheet(d);
 }
 
+/* The state of the last attempt, to take back after another. The test is made anew for what the tester holds. */
+static void keep(Dresser *d) {
+    push_keep(&d->push, d->sheet.nvertices);
+    leaves_copy(&d->leaves, &d->kept);
+}
+
+static void take_back(Dresser *d, const BodyFrame *body, CrossingCount *count) {
+    push_back(&d->push);
+    leaves_copy(&d->kept, &d->leaves);
+    lay_sheet(d);
+    test_mesh(d, body, count);
+}
+
 /* Where an attempt leaves something of the parts that the garment is worn over, another is made from the
    global shape alone, with finer patches there; and where that does too, one that may not move anything
    far, for what has been thrown across a limb comes to rest beside it then. The best stays. */
@@ -179,25 +196,26 @@ static Wrong push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats,
     double cap = d->push.field.cap;
     Wrong best = attempt(d, body, stats, &result, count);
     for (int again = 0; again < ATTEMPTS_MORE && total(&best.own) > 0; again++) {
+        PushResult other = {.sweeps = result.sweeps};
+        keep(d);
         if (d->options.split == SPLIT_ADAPTIVE) split_where_bad(d);
-        push_keep(&d->push);
         field_forget(&d->push.field);
         if (again > 0) d->push.field.cap = NEAR * cap;
-        Wrong w = attempt(d, body, stats, &result, count);
+        Wrong w = attempt(d, body, stats, &other, count);
         d->push.field.cap = cap;
-        if (!is_better(&w, &best)) {
-            push_back(&d->push, &d->sheet);
-            w = test_mesh(d, body, count);
+        if (is_better(&w, &best)) {
+            best = w;
+            result = other;
+        } else {
+            take_back(d, body, count);
+            result.sweeps = other.sweeps;
         }
-        best = w;
     }
-    stats->capped = total(&best.own) + total(&best.other) > 0;
-    push_measure(&d->push, body, &d->sheet, &result);
+    stats->capped = total(&best.own) + total(&best.other) > 0 || result.capped;
     stats->sweeps = result.sweeps;
     stats->active = result.active;
     stats->pinched = result.pinched;
     stats->displacement = result.displacement;
-    stats->capped |= result.capped;
     return best;
 }
 

@@ -32,11 +32,13 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     p->rest = ARENA_NEW(arena, Vec3, places, e);
     p->global = ARENA_NEW(arena, Vec3, places, e);
     p->point = ARENA_NEW(arena, Vec3, places, e);
+    p->kept_point = ARENA_NEW(arena, Vec3, places, e);
     p->clearance = ARENA_NEW(arena, double, places, e);
     p->near = ARENA_NEW(arena, Near, places, e);
     p->sample = ARENA_NEW(arena, PushSample, places, e);
     p->raised = ARENA_NEW(arena, int, places, e);
-    return p->active && p->rest && p->global && p->point && p->clearance && p->near && p->sample && p->raised;
+    return p->active && p->rest && p->global && p->point && p->kept_point && p->clearance && p->near && p->sample &&
+           p->raised;
 }
 
 void push_bind(Push *p, const Patch *root) {
@@ -345,11 +347,15 @@ void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult 
     for (int k = 0; k < p->nraised; k++) settle_vertex(p, body, sheet, p->raised[k], &result->capped);
 }
 
-void push_keep(Push *p) { field_copy(&p->field, &p->kept); }
+void push_keep(Push *p, int nvertices) {
+    p->nkept = nvertices;
+    field_copy(&p->field, &p->kept);
+    memcpy(p->kept_point, p->point, (size_t)nvertices * sizeof *p->point);
+}
 
-void push_back(Push *p, const Sheet *sheet) {
+void push_back(Push *p) {
     field_copy(&p->kept, &p->field);
-    find_points(p, sheet);
+    memcpy(p->point, p->kept_point, (size_t)p->nkept * sizeof *p->point);
 }
 
 void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {

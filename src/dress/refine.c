@@ -14,6 +14,10 @@ void leaves_fill(Leaves *leaves, int level) {
     memset(leaves->level, level, (size_t)leaves->lattice->fit->npatches << (2 * leaves->lattice->depth));
 }
 
+void leaves_copy(const Leaves *from, Leaves *to) {
+    memcpy(to->level, from->level, (size_t)from->lattice->fit->npatches << (2 * from->lattice->depth));
+}
+
 /* Raises a whole cell of `level` to at least that level. */
 static void raise_cell(Leaves *leaves, int patch, int level, int a, int b) {
     int depth = leaves->lattice->depth, cells = 1 << depth, size = 1 << (depth - level);
