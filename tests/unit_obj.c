@@ -36,21 +36,61 @@ static size_t print_sheet(const Mesh *m, double unit, bool uv, bool normal, char
     return (size_t)length;
 }
 
+static bool same_text(ObjWriter *w, const Mesh *m, double unit) {
+    static char wanted[1 << 17];
+    Error e = {0};
+    size_t n = print_sheet(m, unit, m->u != NULL, m->normal != NULL, wanted, sizeof wanted);
+    return obj_format(w, m, unit, &e) && w->size == n && memcmp(w->text, wanted, n) == 0;
+}
+
+static void test_text(Vectors vectors) {
+    static Sheet sheet;
+    static const double units[] = {1, 100, 39.37007874015748, 1e6};
+    ObjWriter w = {.vectors = vectors};
+    bool good = true;
+    make_sheet(&sheet);
+    for (int round = 0; round < 3; round++)
+        for (size_t k = 0; k < 4; k++) {
+            Mesh m = sheet.mesh;
+            if (k & 1) m.u = m.w = NULL;
+            if (k & 2) m.normal = NULL;
+            good = good && same_text(&w, &m, units[k]);
+        }
+    OK(good, "vectors %d: OBJ text equals that of fprintf in any unit, with parameters and normals or without", vectors);
+    obj_writer_free(&w);
+}
+
+/* Parameters and faces are kept; whatever they depend on must tell. */
+static void test_what_changes(void) {
+    static Sheet sheet;
+    ObjWriter w = {0};
+    make_sheet(&sheet);
+    Mesh *m = &sheet.mesh;
+    bool good = same_text(&w, m, 1) && same_text(&w, m, 1);
+    sheet.position[7].y += 1;
+    sheet.normal[8].x = 0.25;
+    good = good && same_text(&w, m, 1);
+    OK(good, "the same faces once more, round other points");
+    sheet.w[VERTICES - 1] = 0.5;
+    OK(same_text(&w, m, 1), "another parameter");
+    sheet.triangle[TRIANGLES - 1].v[2]--;
+    OK(same_text(&w, m, 1), "another corner");
+    m->ntriangles--;
+    sheet.group[2].count--;
+    OK(same_text(&w, m, 1), "a triangle less");
+    size_t before = w.size;
+    sheet.group[2].name = "upright";
+    Error e = {0};
+    OK(obj_format(&w, m, 1, &e) && w.size == before + 2, "another name");
+    obj_writer_free(&w);
+}
+
 static void test_obj_write(void) {
     static Sheet sheet;
-    static char wanted[1 << 17];
-    static const double units[] = {1, 100, 39.37007874015748, 1e6};
-    make_sheet(&sheet);
     ObjWriter w = {0};
     Error e = {0};
-    for (size_t k = 0; k < 4; k++) {
-        Mesh m = sheet.mesh;
-        if (k & 1) m.u = m.w = NULL;
-        if (k & 2) m.normal = NULL;
-        size_t n = print_sheet(&m, units[k], m.u != NULL, m.normal != NULL, wanted, sizeof wanted);
-        bool good = obj_format(&w, &m, units[k], &e);
-        OK(good && w.size == n && memcmp(w.text, wanted, n) == 0, "OBJ text equals that of fprintf, unit %g", units[k]);
-    }
+    make_sheet(&sheet);
+    if (!OK(obj_format(&w, &sheet.mesh, 1, &e), "a mesh is a text")) return;
     long long bytes = 0;
     const char *text = w.text;
     const char *path = in_folder("sheet.obj");
@@ -176,6 +216,9 @@ static void test_obj_parse(void) {
 
 int main(void) {
     if (!folder_make()) return 1;
+    for (Vectors v = VECTORS_BEST; v < VECTORS_COUNT; v++)
+        if (vectors_usable(v)) test_text(v);
+    test_what_changes();
     test_obj_write();
     test_obj_read();
     test_obj_parse();

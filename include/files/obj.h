@@ -3,7 +3,9 @@
 #define FILES_OBJ_H
 
 #include "base/text.h"
+#include "files/memo.h"
 #include "geometry/mesh.h"
+#include "geometry/vectors.h"
 
 /* The memory that a sequence of files is written with: it grows to the largest and stays.
    Clear with {0}. One belongs to one thread. */
@@ -13,6 +15,8 @@ typedef struct {
     struct ObjCorner *corner; /* how corner i is written in a face, for all files so far of its kind */
     int ncorners, corner_capacity;
     int corner_kind;
+    Memo memo; /* of parameters and faces */
+    Vectors vectors; /* to format numbers with */
     double metre; /* how many units of the file the first line says a metre has; 0: as many as `unit` */
 } ObjWriter;
 

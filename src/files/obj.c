@@ -1,15 +1,17 @@
 /* Writing Wavefront OBJ: the whole text is put together in one buffer and written in one go.
 
-   A frame is some ten thousand short lines, so numbers are formatted by decimal.c and the room
-   in the buffer is asked for once a line. Vertices, texture coordinates and normals share
-   their numbering: a corner is i, i/i, i//i or i/i/i. What that looks like depends on i alone, so
-   it is written once for all files, and faces, whatever they are, are put together from it. */
+   A frame is some ten thousand short lines. Those of points and normals are formatted by digits.c,
+   sixteen at a time. Parameters and faces mostly are those of an earlier file, and copied from
+   there (memo.c). Vertices, texture coordinates and normals share their numbering: a corner is i, i/i,
+   i//i or i/i/i. What that looks like depends on i alone, so it is written once for all files, and faces,
+   where they are new, are put together from it. */
 #include "files/obj.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "files/decimal.h"
+#include "files/digits.h"
 #include "files/output.h"
 
 /* No line without a name is longer: three numbers and what stands round them. */
@@ -39,31 +41,48 @@ static bool put_head(ObjWriter *w, double unit, Error *e) {
     return true;
 }
 
-/* One line: the tag and n numbers. */
-static bool put_numbers(ObjWriter *w, const char *tag, const double *x, int n, Error *e) {
-    char *at = room_for(w, LINE_ROOM, e);
-    if (!at) return false;
-    while (*tag) *at++ = *tag++;
-    for (int i = 0; i < n; i++) {
-        if (!isfinite(x[i])) return error_set(e, ERR_INTERNAL, "the mesh has a number that is not finite");
-        *at++ = ' ';
-        at = decimal_put(at, x[i]);
+/* Numbers that digits.c leaves to us. */
+static bool put_slowly(ObjWriter *w, const char *tag, const double *x, double unit, int columns, int lines,
+                       Error *e) {
+    for (int line = 0, i = 0; line < lines; line++) {
+        char *at = room_for(w, LINE_ROOM, e);
+        if (!at) return false;
+        at = stpcpy(at, tag);
+        for (int c = 0; c < columns; c++, i++) {
+            if (!isfinite(x[i] * unit)) return error_set(e, ERR_INTERNAL, "the mesh has a number that is not finite");
+            *at++ = ' ';
+            at = decimal_put(at, x[i] * unit);
+        }
+        *at++ = '\n';
+        advance(w, at);
     }
-    *at++ = '\n';
-    advance(w, at);
     return true;
 }
 
-static bool put_vertices(ObjWriter *w, const Mesh *mesh, double unit, Error *e) {
-    for (int i = 0; i < mesh->nvertices; i++) {
-        Vec3 p = mesh->position[i];
-        if (!put_numbers(w, "v", (double[]){p.x * unit, p.y * unit, p.z * unit}, 3, e)) return false;
-    }
-    for (int i = 0; i < mesh->nvertices && mesh->u && mesh->w; i++)
-        if (!put_numbers(w, "vt", (double[]){mesh->u[i], mesh->w[i]}, 2, e)) return false;
-    for (int i = 0; i < mesh->nvertices && mesh->normal; i++) {
-        Vec3 n = mesh->normal[i];
-        if (!put_numbers(w, "vn", (double[]){n.x, n.y, n.z}, 3, e)) return false;
+/* Lines of the tag and some of the numbers x, times unit. */
+static bool put_lines(ObjWriter *w, const char *tag, const double *x, double unit, int columns, int lines, Error *e) {
+    char *at = room_for(w, DIGITS_LINES * DIGITS_ROOM, e), *end = NULL;
+    if (!at) return false;
+    if (lines == DIGITS_LINES) end = digits_lines(at, tag, x, unit, columns, w->vectors);
+    if (!end) return put_slowly(w, tag, x, unit, columns, lines, e);
+    advance(w, end);
+    return true;
+}
+
+static int lines_left(int n, int done) { return n - done < DIGITS_LINES ? n - done : DIGITS_LINES; }
+
+static bool put_vectors(ObjWriter *w, const char *tag, const Vec3 *v, int n, double unit, Error *e) {
+    for (int i = 0; i < n; i += DIGITS_LINES)
+        if (!put_lines(w, tag, (const double *)(v + i), unit, 3, lines_left(n, i), e)) return false;
+    return true;
+}
+
+static bool put_parameters(ObjWriter *w, const Mesh *mesh, Error *e) {
+    double x[DIGITS_LINES * DIGITS_COLUMNS] = {0};
+    for (int i = 0; i < mesh->nvertices; i += DIGITS_LINES) {
+        int lines = lines_left(mesh->nvertices, i);
+        for (int k = 0; k < lines; k++) x[2 * k] = mesh->u[i + k], x[2 * k + 1] = mesh->w[i + k];
+        if (!put_lines(w, "vt", x, 1, 2, lines, e)) return false;
     }
     return true;
 }
@@ -91,6 +110,8 @@ enum { CORNER_ROOM = 36 };
 struct ObjCorner { char text[CORNER_ROOM]; int length; };
 
 enum { HAS_UV = 1, HAS_NORMAL = 2 };
+
+static int kind_of(const Mesh *mesh) { return (mesh->u && mesh->w ? HAS_UV : 0) | (mesh->normal ? HAS_NORMAL : 0); }
 
 static void format_corner(struct ObjCorner *c, int number, int kind) {
     *c = (struct ObjCorner){{0}, 0};
@@ -122,8 +143,8 @@ static bool make_corners(ObjWriter *w, int n, int kind, Error *e) {
 }
 
 static bool put_faces(ObjWriter *w, const Mesh *mesh, Error *e) {
-    int group = 0, kind = (mesh->u && mesh->w ? HAS_UV : 0) | (mesh->normal ? HAS_NORMAL : 0);
-    if (!make_corners(w, mesh->nvertices, kind, e)) return false;
+    int group = 0;
+    if (!make_corners(w, mesh->nvertices, kind_of(mesh), e)) return false;
     for (int t = 0; t < mesh->ntriangles; t++) {
         for (; group < mesh->ngroups && mesh->group[group].first <= t; group++)
             if (mesh->group[group].count > 0 && !put_group(w, mesh->group[group].name, e)) return false;
@@ -141,9 +162,50 @@ static bool put_faces(ObjWriter *w, const Mesh *mesh, Error *e) {
     return true;
 }
 
+/* What was written in an earlier file under the same key, or what `put` writes now. */
+static bool put_again(ObjWriter *w, bool (*put)(ObjWriter *w, const Mesh *mesh, Error *e), const Mesh *mesh,
+                      Error *e) {
+    size_t size, before = w->size;
+    const char *text = memo_find(&w->memo, &size);
+    if (text) {
+        char *at = room_for(w, size, e);
+        if (at) advance(w, (char *)memcpy(at, text, size) + size);
+        return at != NULL;
+    }
+    if (!put(w, mesh, e)) return false;
+    memo_keep(&w->memo, w->text + before, w->size - before);
+    return true;
+}
+
+static bool put_parameters_again(ObjWriter *w, const Mesh *mesh, Error *e) {
+    size_t size = (size_t)mesh->nvertices * sizeof(double);
+    memo_begin(&w->memo);
+    memo_add(&w->memo, "vt", 2);
+    memo_add(&w->memo, mesh->u, size);
+    memo_add(&w->memo, mesh->w, size);
+    return put_again(w, put_parameters, mesh, e);
+}
+
+static bool put_faces_again(ObjWriter *w, const Mesh *mesh, Error *e) {
+    int kind = kind_of(mesh);
+    memo_begin(&w->memo);
+    memo_add(&w->memo, "f", 1);
+    memo_add(&w->memo, &kind, sizeof kind);
+    memo_add(&w->memo, mesh->triangle, (size_t)mesh->ntriangles * sizeof(Triangle));
+    for (int g = 0; g < mesh->ngroups; g++) {
+        memo_add(&w->memo, &mesh->group[g].first, sizeof(int));
+        memo_add(&w->memo, &mesh->group[g].count, sizeof(int));
+        memo_add(&w->memo, mesh->group[g].name, strlen(mesh->group[g].name) + 1);
+    }
+    return put_again(w, put_faces, mesh, e);
+}
+
 bool obj_format(ObjWriter *w, const Mesh *mesh, double unit, Error *e) {
     w->size = 0;
-    return put_head(w, w->metre > 0 ? w->metre : unit, e) && put_vertices(w, mesh, unit, e) && put_faces(w, mesh, e);
+    return put_head(w, w->metre > 0 ? w->metre : unit, e) &&
+           put_vectors(w, "v", mesh->position, mesh->nvertices, unit, e) &&
+           (!mesh->u || !mesh->w || put_parameters_again(w, mesh, e)) &&
+           (!mesh->normal || put_vectors(w, "vn", mesh->normal, mesh->nvertices, 1, e)) && put_faces_again(w, mesh, e);
 }
 
 bool obj_write(ObjWriter *w, const char *path, const Mesh *mesh, double unit, long long *bytes, Error *e) {
@@ -155,5 +217,6 @@ bool obj_write(ObjWriter *w, const char *path, const Mesh *mesh, double unit, lo
 void obj_writer_free(ObjWriter *w) {
     free(w->text);
     free(w->corner);
+    memo_free(&w->memo);
     *w = (ObjWriter){0};
 }
