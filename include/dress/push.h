@@ -7,14 +7,15 @@
 
 /* A mesh vertex near the body, with the level vertices that move it. Private. */
 typedef struct {
-    int vertex, n;
+    int vertex, n;                    /* n: level vertices; -1 until somebody asks */
     unsigned near;                    /* parts (bit 1 << part) worth asking */
     int id[4 * LATTICE_LEVELS];       /* into Field.displacement */
-    double weight[4 * LATTICE_LEVELS], share[4 * LATTICE_LEVELS], norm2; /* share: weight x mobility */
+    double weight[4 * LATTICE_LEVELS], norm2;
     double spent, budget;             /* push issued in this frame, and its limit; metres */
     Vec3 net;                         /* their sum */
     Vec3 seen;                        /* where it was when its distances were last taken, */
-    double slack;                     /* and how far it may go from there before that matters */
+    double slack;                     /* how far it may go from there before that matters, */
+    double travelled;                 /* and what it had gone at most by then (Push.travel) */
 } PushSample;
 
 /* The displacement and the solver's memory. */
@@ -25,6 +26,9 @@ typedef struct {
     Vec3 *kept_point;                 /* and where it left the vertices */
     int nkept;
     bool *active;                     /* per level vertex: all cells round it are split to its level */
+    double *mobility;                 /* per level vertex: how willingly it moves */
+    double *travel;                   /* per level vertex: metres moved since the samples were found, */
+    bool any_travel;                  /* if anything was */
     const Patch *root;                /* of this frame */
     Vec3 *rest;                       /* per lattice place: in the bind pose */
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */

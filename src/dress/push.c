@@ -29,6 +29,8 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     if (!field_reserve(&p->field, lattice, arena, e) || !field_reserve(&p->kept, lattice, arena, e)) return false;
     int places = lattice->nplaces;
     p->active = ARENA_NEW(arena, bool, p->field.start[LATTICE_LEVELS], e);
+    p->mobility = ARENA_NEW(arena, double, p->field.start[LATTICE_LEVELS], e);
+    p->travel = ARENA_NEW(arena, double, p->field.start[LATTICE_LEVELS], e);
     p->rest = ARENA_NEW(arena, Vec3, places, e);
     p->global = ARENA_NEW(arena, Vec3, places, e);
     p->point = ARENA_NEW(arena, Vec3, places, e);
@@ -37,8 +39,13 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     p->near = ARENA_NEW(arena, Near, places, e);
     p->sample = ARENA_NEW(arena, PushSample, places, e);
     p->raised = ARENA_NEW(arena, int, places, e);
-    return p->active && p->rest && p->global && p->point && p->kept_point && p->clearance && p->near && p->sample &&
-           p->raised;
+    if (!p->active || !p->mobility || !p->travel || !p->rest || !p->global || !p->point || !p->kept_point ||
+        !p->clearance || !p->near || !p->sample || !p->raised)
+        return false;
+    for (int level = 0; level <= lattice->depth; level++)
+        for (int v = 0; v < lattice->level[level].count; v++)
+            p->mobility[p->field.start[level] + v] = lattice->level[level].pinned[v] ? PIN_GIVES : 1;
+    return true;
 }
 
 void push_bind(Push *p, const Patch *root) {
@@ -109,37 +116,43 @@ static unsigned movers(const Push *p, int place) {
    displacements for them and for the legs would fight. */
 static unsigned parts_at(const Push *p, int place) { return p->lattice->collide[place] | p->lattice->outside[place]; }
 
-static void add_sample(Push *p, const Sheet *sheet, int vertex, unsigned near) {
+/* Many samples are never moved nor asked again: what moves them is found when it is first needed. */
+static void weigh(const Push *p, const Sheet *sheet, PushSample *s) {
     const Lattice *l = p->lattice;
-    PushSample *s = &p->sample[p->nsamples++];
-    *s = (PushSample){.vertex = vertex, .near = near, .budget = -1, .seen = p->near[vertex].seen};
-    s->slack = NEAR_LIPSCHITZ * (p->near[vertex].distance - (1 - SLACK) * p->clearance[vertex]);
     int patch, i, j, id[4];
     double weight[4];
-    lattice_owner(l, sheet->place[vertex], &patch, &i, &j);
+    lattice_owner(l, sheet->place[s->vertex], &patch, &i, &j);
+    s->n = 0;
     for (int level = 0; level <= l->depth; level++) {
         lattice_weights(l, level, patch, i, j, id, weight, NULL, NULL);
         for (int k = 0; k < 4; k++) {
             int unknown = p->field.start[level] + id[k];
             if (weight[k] <= 0 || !p->active[unknown]) continue;
-            double gives = l->level[level].pinned[id[k]] ? PIN_GIVES : 1;
             s->id[s->n] = unknown;
-            s->weight[s->n] = weight[k];
-            s->share[s->n++] = gives * weight[k];
-            s->norm2 += gives * weight[k] * weight[k];
+            s->weight[s->n++] = weight[k];
+            s->norm2 += p->mobility[unknown] * weight[k] * weight[k];
         }
     }
+}
+
+static void add_sample(Push *p, int vertex, unsigned near) {
+    const Near *seen = &p->near[vertex];
+    double slack = NEAR_LIPSCHITZ * (seen->distance - (1 - SLACK) * p->clearance[vertex]);
+    p->sample[p->nsamples++] =
+        (PushSample){.vertex = vertex, .n = -1, .near = near, .budget = -1, .seen = seen->seen, .slack = slack};
 }
 
 static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
     double far = (PUSH_MARGIN + REACH) * p->field.scale;
     p->nsamples = 0;
+    p->any_travel = false;
+    memset(p->travel, 0, (size_t)p->field.start[LATTICE_LEVELS] * sizeof *p->travel);
     find_points(p, sheet);
     near_find(p->near, body, sheet, p->point, far, p->near_known);
     p->near_known = true;
     for (int v = 0; v < sheet->nvertices; v++) {
         unsigned near = of_roles(body, p->near[v].parts, movers(p, sheet->place[v]));
-        if (near) add_sample(p, sheet, v, near);
+        if (near) add_sample(p, v, near);
     }
 }
 
@@ -148,8 +161,18 @@ static void project(Push *p, const PushSample *s, Vec3 n, double depth, PushResu
     double step = depth / fmax(s->norm2, NORM_MIN);
     for (int k = 0; k < s->n; k++) {
         Vec3 *d = &p->field.displacement[s->id[k]];
-        *d = field_limit(vec_mad(*d, n, step * s->share[k]), p->field.cap, &result->capped);
+        double by = step * (p->mobility[s->id[k]] * s->weight[k]);
+        *d = field_limit(vec_mad(*d, n, by), p->field.cap, &result->capped);
+        p->travel[s->id[k]] += fabs(by);
     }
+    p->any_travel = true;
+}
+
+/* The most that a sample can have been moved since it was found. */
+static double travelled(const Push *p, const PushSample *s) {
+    double sum = 0;
+    for (int k = 0; k < s->n; k++) sum += p->travel[s->id[k]] * s->weight[k];
+    return sum;
 }
 
 /* Between two parts that overlap there is no room: each push undoes the one before, and all that
@@ -233,14 +256,24 @@ static double way_asked(const Push *p, const BodyFrame *body, int place, unsigne
 
 /* Pushes one sample out of the parts it is too near to. Distances change no faster than the
    point moves, so a sample that has been found clear is left alone until it has used up its
-   slack. Returns the depth of the worst violation that was acted on. */
+   slack; first the way that what moves it has gone is held against that, then its own. Returns the
+   depth of the worst violation that was acted on. */
 static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, PushSample *s, PushResult *result) {
     if (s->budget >= 0 && is_pinched(p, s)) return 0; /* it has had its say */
+    if (s->slack > 0 && !p->any_travel) return 0;
+    if (s->n < 0) weigh(p, sheet, s);
+    double way = travelled(p, s);
+    if (s->slack > way - s->travelled) return 0;
     double clearance = p->clearance[s->vertex], most = 0, slack = INFINITY;
     int place = sheet->place[s->vertex];
     Vec3 x = sample_point(p, sheet, s);
-    if (s->slack > 0 && vec_dist(x, s->seen) < s->slack) return 0;
+    double gone = vec_dist(x, s->seen);
+    if (s->slack > gone) {
+        s->travelled = way - gone;
+        return 0;
+    }
     s->seen = x;
+    s->travelled = way;
     for (int part = 0; s->near >> part; part++) {
         if (!(s->near >> part & 1)) continue;
         Vec3 n;

@@ -114,7 +114,15 @@ static int interval_of(const BodyPart *part, double y) {
     return i;
 }
 
-/* The five values and their slopes. */
+/* The five values, */
+static void values_at(const BodyPart *part, double y, double v[SHAPE_VALUES]) {
+    int i = interval_of(part, y);
+    double t = y - part->section[i].at;
+    const double (*c)[SHAPE_VALUES] = part->cubic[i];
+    for (int k = 0; k < SHAPE_VALUES; k++) v[k] = c[0][k] + t * (c[1][k] + t * (c[2][k] + t * c[3][k]));
+}
+
+/* and with their slopes. */
 static void shape_at(const BodyPart *part, double y, double v[SHAPE_VALUES], double d[SHAPE_VALUES]) {
     int i = interval_of(part, y);
     double t = y - part->section[i].at;
@@ -166,6 +174,15 @@ static double before_plane(const BodyPart *part, Vec3 at, Vec3 p, Vec3 *normal) 
     return vec_dot(vec_sub(p, surface), *normal);
 }
 
+/* Is p, at a height that the part has, outside or on it? The sign of f - 1 as in before_plane, without roots
+   or divisions. */
+static bool is_outside(const BodyPart *part, Vec3 p) {
+    double v[SHAPE_VALUES];
+    values_at(part, clamp(p.y, part->low + POLE, part->high - POLE), v);
+    double dx = p.x - v[0], dz = p.z - v[1], depth = v[dz >= 0 ? 3 : 4], x = dx * depth, z = dz * v[2], one = v[2] * depth;
+    return x * x + z * z >= one * one;
+}
+
 /* Where the surface leans (caps, calf, seat) the nearest point is not at the same height: a
    second plane is taken under the first one's foot. For a convex part both planes bound the
    distance from below. */
@@ -176,6 +193,8 @@ double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal) {
     if (beyond >= far) return beyond;
     double away = p.x * p.x + p.z * p.z, limit = part->reach + far;
     if (away >= limit * limit) return fmax(far, sqrt(away) - part->reach);
+
+    if (far <= 0 && is_outside(part, p)) return far;
 
     Vec3 n, n2;
     double distance = before_plane(part, p, p, &n);
