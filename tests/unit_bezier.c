@@ -96,11 +96,29 @@ static void hermite(void) {
     NEAR(vec_dist(vec_scale(vec_sub(out[3], out[2]), 3 / 0.5), db), 0, 1e-14, "and arrives with its slope");
 }
 
-/* Grids give the very numbers of bezier_point and bezier_normal, with any vectors, also round a
-   pole; as a whole and in part. */
+/* How many points and normals of the grid are not those of bezier_point and bezier_normal, or lie behind
+   its end. */
+static int differing(const Patch *patch, const GridRows *u, const GridRows *w) {
+    enum { BEHIND = 16, ROOM = 40 * 40 };
+    static Vec3 point[ROOM], normal[ROOM], alone[ROOM];
+    int wrong = 0, n = u->n * w->n;
+    const Vec3 untouched = {1, 2, 3};
+    for (int k = 0; k < n + BEHIND; k++) point[k] = normal[k] = alone[k] = untouched;
+    grid_points(patch, u, w, point, normal);
+    grid_points(patch, u, w, alone, NULL);
+    for (int k = 0; k < n + BEHIND; k++) {
+        double s = u->t[k < n ? k / w->n : 0], t = w->t[k < n ? k % w->n : 0];
+        Vec3 p = k < n ? bezier_point(patch, s, t, NULL, NULL) : untouched;
+        Vec3 q = k < n ? bezier_normal(patch, s, t) : untouched;
+        wrong += memcmp(&p, &point[k], sizeof p) != 0 || memcmp(&p, &alone[k], sizeof p) != 0 ||
+                 memcmp(&q, &normal[k], sizeof q) != 0;
+    }
+    return wrong;
+}
+
+/* With any vectors, round a pole as well; as a whole and in parts of any size. */
 static void grids(void) {
-    enum { FACETS = 32, ALL = FACETS + 1, PART = 9, FIRST = 20 };
-    static Vec3 point[ALL * ALL], normal[ALL * ALL];
+    enum { FACETS = 32, ALL = FACETS + 1 };
     Arena arena = {0};
     Error e = {0};
     GridRows rows;
@@ -109,18 +127,13 @@ static void grids(void) {
         if (!vectors_usable(v)) continue;
         int wrong = 0;
         rows.vectors = v;
-        GridRows part = grid_part(&rows, FIRST, PART);
-        for (int n = 0; n < 20; n++) {
-            const GridRows *u = n % 2 ? &part : &rows, *w = n % 3 ? &part : &rows;
+        for (int n = 1; n <= ALL; n++) {
+            GridRows part = grid_part(&rows, n % 3 ? 0 : ALL - n, n), other = grid_part(&rows, 0, 1 + n * 7 % ALL);
             Patch patch = random_patch();
             for (int j = 0; j < 4 && n % 5 == 0; j++) patch.p[3][j] = patch.p[3][0]; /* u = 1 is a pole */
-            grid_points(&patch, u, w, point, normal);
-            for (int j = 0, k = 0; j < w->n; j++)
-                for (int i = 0; i < u->n; i++, k++) {
-                    Vec3 p = bezier_point(&patch, u->t[i], w->t[j], NULL, NULL);
-                    Vec3 q = bezier_normal(&patch, u->t[i], w->t[j]);
-                    wrong += memcmp(&p, &point[k], sizeof p) != 0 || memcmp(&q, &normal[k], sizeof q) != 0;
-                }
+            for (int i = 0; i < 4 && n % 7 == 0; i++) patch.p[i][0] = patch.p[0][0]; /* w = 0 is one */
+            wrong += differing(&patch, &rows, &part) + differing(&patch, &part, &rows) +
+                     differing(&patch, &part, &other);
         }
         OK(wrong == 0, "a grid is the same point by point, vectors %d (%d differ)", v, wrong);
     }

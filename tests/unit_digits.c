@@ -42,14 +42,14 @@ static void numbers_of_all_sizes(Vectors v) {
     for (int n = 0; n < 3000; n++) {
         double x[NUMBERS], unit = n % 2 ? 1 : 0.37;
         for (int i = 0; i < NUMBERS; i++)
-            x[i] = (random_unit() - 0.5) * 2 * pow(10, 1.4 - floor(10 * random_unit())) * (random_unit() < 0.01 ? 0 : 1);
+            x[i] = (random_unit() - 0.5) * 2 * pow(10, 1 - floor(10 * random_unit())) * (random_unit() > 0.01);
         for (int i = 0; i < NUMBERS; i++) x[i] = fabs(x[i]) < 9.9 ? x[i] : 1 / x[i];
         int found = compare(x, unit, 1 + n % 3, v);
         wrong += found == 0;
         refused += found < 0;
     }
-    OK(wrong == 0 && refused == 0, "vectors %d: numbers of all sizes are printf's (%d are not, %d are refused)", v, wrong,
-       refused);
+    OK(wrong == 0 && refused == 0, "vectors %d: numbers of all sizes are printf's (%d are not, %d are refused)", v,
+       wrong, refused);
 }
 
 /* As written meshes have them; every last digit, and carries into every place. */
@@ -74,7 +74,8 @@ static void between_two_digits(Vectors v) {
         wrong += found == 0;
         refused += found < 0;
     }
-    OK(wrong == 0 && refused > 300, "vectors %d: next to the middle of two digits none is wrong, %d refused", v, refused);
+    OK(wrong == 0 && refused > 300, "vectors %d: next to the middle of two digits none is wrong, %d refused", v,
+       refused);
 }
 
 static void what_is_refused(Vectors v) {

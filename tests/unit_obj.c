@@ -56,7 +56,8 @@ static void test_text(Vectors vectors) {
             if (k & 2) m.normal = NULL;
             good = good && same_text(&w, &m, units[k]);
         }
-    OK(good, "vectors %d: OBJ text equals that of fprintf in any unit, with parameters and normals or without", vectors);
+    OK(good, "vectors %d: OBJ text equals that of fprintf in any unit, with parameters and normals or without",
+       vectors);
     obj_writer_free(&w);
 }
 

@@ -4,6 +4,7 @@
 
 #include "dress/bodyframe.h"
 #include "dress/lattice.h"
+#include "geometry/grid.h"
 
 typedef enum { SPLIT_ADAPTIVE, SPLIT_UNIFORM, SPLIT_NONE } SplitRule;
 
@@ -47,6 +48,7 @@ typedef struct {
 /* Memory of the classification; private inside. */
 typedef struct {
     const Lattice *lattice;
+    GridRows rows[LATTICE_LEVELS]; /* at the corners of each level's facets */
     int capacity;             /* cells tested in one go */
     Vec3 *position;
     Triangle *triangle;

@@ -10,7 +10,7 @@
 /* Bernstein values and their derivatives at n parameters, side by side: made once, used for every
    patch and frame. A part of them, for a part of a patch, is made by moving the pointers. */
 typedef struct {
-    Vectors vectors;             /* to count with; those of the rows along u */
+    Vectors vectors;             /* to count with; those of the rows of u */
     int n;
     double *t;                   /* the parameters */
     double *value[4], *slope[4];
@@ -22,7 +22,8 @@ MUST_CHECK bool grid_rows(int facets, Arena *arena, GridRows *out, Error *e);
 /* The rows first..first+n-1. */
 GridRows grid_part(const GridRows *rows, int first, int n);
 
-/* point[j * u->n + i] at (u->t[i], w->t[j]). normal, if not NULL, gets the unit normals. */
+/* point[i * w->n + j] at (u->t[i], w->t[j]). normal, if not NULL, gets the unit normals. Nothing is written
+   behind the last of them. */
 void grid_points(const Patch *patch, const GridRows *u, const GridRows *w, Vec3 *point, Vec3 *normal);
 
 #endif

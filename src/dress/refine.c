@@ -53,6 +53,8 @@ int leaves_count(const Leaves *leaves) {
 bool classifier_reserve(Classifier *c, const Lattice *lattice, Arena *arena, Error *e) {
     int n = lattice->detail, most = lattice->fit->npatches << (2 * lattice->depth);
     *c = (Classifier){.lattice = lattice, .capacity = most, .found_capacity = 16 * most * n + 4096};
+    for (int level = 0; level <= lattice->depth; level++)
+        if (!grid_rows(n << level, arena, &c->rows[level], e)) return false;
     c->position = ARENA_NEW(arena, Vec3, most * (n + 1) * (n + 1), e);
     c->triangle = ARENA_NEW(arena, Triangle, most * n * n * 2, e);
     c->cell = ARENA_NEW(arena, LatticeCell, most, e);
@@ -64,15 +66,10 @@ bool classifier_reserve(Classifier *c, const Lattice *lattice, Arena *arena, Err
 }
 
 /* The points of a cell on the global shape: its (detail + 1)^2 corners of facets. */
-static void cell_points(const Lattice *l, const Patch *root, LatticeCell cell, int level, Vec3 *out) {
-    int n = l->detail, stride = 1 << (l->depth - level);
-    for (int j = 0; j <= n; j++) {
-        const double *bw = l->basis[cell.b * n * stride + j * stride];
-        Vec3 row[4];
-        for (int i = 0; i < 4; i++) row[i] = bezier_cubic(root->p[i], bw);
-        for (int i = 0; i <= n; i++)
-            out[i * (n + 1) + j] = bezier_cubic(row, l->basis[cell.a * n * stride + i * stride]);
-    }
+static void cell_points(const Classifier *c, const Patch *root, LatticeCell cell, int level, Vec3 *out) {
+    int n = c->lattice->detail;
+    GridRows u = grid_part(&c->rows[level], cell.a * n, n + 1), w = grid_part(&c->rows[level], cell.b * n, n + 1);
+    grid_points(root, &u, &w, out, NULL);
 }
 
 void facets_of_cell(int n, int first, Triangle *out) {
@@ -97,7 +94,7 @@ static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, 
     int n = l->detail, npoints = (n + 1) * (n + 1), ntriangles = 2 * n * n;
     for (int k = 0; k < ncells; k++) {
         unsigned parts = l->fit->patch[c->cell[k].patch].collide;
-        cell_points(l, &root[c->cell[k].patch], c->cell[k], level, c->position + k * npoints);
+        cell_points(c, &root[c->cell[k].patch], c->cell[k], level, c->position + k * npoints);
         facets_of_cell(n, k * npoints, c->triangle + k * ntriangles);
         c->hit[k] = any_inside(body, parts, c->position + k * npoints, npoints);
     }
