@@ -32,7 +32,8 @@ typedef struct {
     const Patch *root;                /* of this frame */
     Vec3 *rest;                       /* per lattice place: in the bind pose */
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
-    double *clearance;                /* per mesh vertex: distance asked for */
+    double *clearance;                /* per mesh vertex: distance asked for, */
+    double slack;                     /* of which this share may be missing */
     Near *near;                       /* per mesh vertex */
     bool near_known;                  /* since the frame or the sheet changed */
     PushSample *sample;

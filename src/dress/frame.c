@@ -22,7 +22,7 @@ enum { DETAIL_DEFAULT = 8, DEPTH_DEFAULT = 2 };
 /* Rounds of asking for more distance; every third time the whole surface gives way, not only the
    vertices that were asked. */
 enum { ROUNDS_MAX = 9, SOLVE_EVERY = 3 };
-enum { ATTEMPTS_MORE = 2 };
+enum { ATTEMPTS = 4 };
 static const double NEAR = 0.45;    /* of the cap, in the last attempt */
 static const double HEADWAY = 0.7;  /* of the bad vertices may be left after that, or it is given up */
 static const double RAISE = 0.0015; /* metres of clearance added where an edge still crosses, on 1.70 m */
@@ -35,7 +35,7 @@ struct Dresser {
     Patch *root;
     Classifier classifier;
     Leaves by_rule, leaves; /* as the classification found them; as the solver refined them further */
-    Leaves kept;            /* those of the best attempt so far */
+    Leaves fresh, kept;     /* before anything is carried along; of the best attempt so far */
     Leaves grid;            /* what is tessellated under a fixed topology */
     Sheet sheet;
     Push push;
@@ -78,9 +78,10 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
         !lattice_build(&d->fit, detail, depth, arena, &d->lattice, e) ||
         !classifier_reserve(&d->classifier, &d->lattice, arena, e) ||
         !leaves_reserve(&d->by_rule, &d->lattice, arena, e) || !leaves_reserve(&d->leaves, &d->lattice, arena, e) ||
-        !leaves_reserve(&d->kept, &d->lattice, arena, e) || !leaves_reserve(&d->grid, &d->lattice, arena, e) ||
-        !sheet_reserve(&d->sheet, &d->lattice, arena, e) || !push_reserve(&d->push, &d->lattice, arena, e) ||
-        !normals_reserve(&d->normals, &d->lattice, arena, e) || !make_groups(d, arena, e))
+        !leaves_reserve(&d->fresh, &d->lattice, arena, e) || !leaves_reserve(&d->kept, &d->lattice, arena, e) ||
+        !leaves_reserve(&d->grid, &d->lattice, arena, e) || !sheet_reserve(&d->sheet, &d->lattice, arena, e) ||
+        !push_reserve(&d->push, &d->lattice, arena, e) || !normals_reserve(&d->normals, &d->lattice, arena, e) ||
+        !make_groups(d, arena, e))
         return false;
     int triangles = 2 * d->fit.npatches * d->lattice.side * d->lattice.side, places = d->lattice.nplaces;
     d->root = ARENA_NEW(arena, Patch, d->fit.npatches, e);
@@ -188,21 +189,30 @@ static void take_back(Dresser *d, const BodyFrame *body, CrossingCount *count) {
     test_mesh(d, body, count);
 }
 
-/* Where an attempt leaves something of the parts that the garment is worn over, another is made from the
-   global shape alone, with finer patches there; and where that does too, one that may not move anything
-   far, for what has been thrown across a limb comes to rest beside it then. The best stays. */
+/* Where an attempt leaves something of the parts that the garment is worn over, others are made from the
+   global shape alone: as if nothing had been before; with finer patches where that leaves something; and so
+   that nothing may move far, for what has been thrown across a limb comes to rest beside it then. The best
+   stays. */
+static void prepare(Dresser *d, int attempt, double cap) {
+    if (attempt == 1) {
+        leaves_copy(&d->fresh, &d->leaves);
+        lay_sheet(d);
+    } else if (d->options.split == SPLIT_ADAPTIVE) {
+        split_where_bad(d);
+    }
+    field_forget(&d->push.field);
+    d->push.field.cap = attempt == ATTEMPTS - 1 ? NEAR * cap : cap;
+}
+
 static Wrong push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
     PushResult result = {0};
     double cap = d->push.field.cap;
     Wrong best = attempt(d, body, stats, &result, count);
-    for (int again = 0; again < ATTEMPTS_MORE && total(&best.own) > 0; again++) {
+    for (int k = 1; k < ATTEMPTS && total(&best.own) > 0; k++) {
         PushResult other = {.sweeps = result.sweeps};
         keep(d);
-        if (d->options.split == SPLIT_ADAPTIVE) split_where_bad(d);
-        field_forget(&d->push.field);
-        if (again > 0) d->push.field.cap = NEAR * cap;
+        prepare(d, k, cap);
         Wrong w = attempt(d, body, stats, &other, count);
-        d->push.field.cap = cap;
         if (is_better(&w, &best)) {
             best = w;
             result = other;
@@ -211,6 +221,7 @@ static Wrong push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats,
             result.sweeps = other.sweeps;
         }
     }
+    d->push.field.cap = cap;
     stats->capped = total(&best.own) + total(&best.other) > 0 || result.capped;
     stats->sweeps = result.sweeps;
     stats->active = result.active;
@@ -328,6 +339,7 @@ void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, M
 
     start = clock_seconds();
     bool is_global = d->options.method == METHOD_GLOBAL;
+    leaves_copy(&d->leaves, &d->fresh);
     field_carry(&d->push.field, body, dt, restart || is_global, &d->leaves);
     lay_sheet(d);
     stats->mesh_s = clock_seconds() - start;

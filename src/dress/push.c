@@ -13,7 +13,8 @@
 /* Caps and tolerances, metres on a figure of 1.70 m where they are lengths. */
 enum { SWEEPS_MAX = 30, STALL = 5, ROUNDS_MAX = 3, SETTLES_MAX = 4, STEPS_OUT = 6 };
 static const double REACH = 0.04;      /* vertices farther from the body are not swept */
-static const double SLACK = 0.1;       /* share of the clearance that may be missing after sweeps */
+static const double SLACK = 0.1;       /* share of the clearance that may be missing after sweeps; settling makes
+                                          up for it */
 static const double PIN_GIVES = 0.2;   /* a pinned level vertex moves this share of what a free one would */
 static const double NORM_MIN = 0.1;    /* a sample that level vertices hardly move must not fling them */
 static const double BUDGET = 0.02;     /* a sample may issue twice its first violation and this */
@@ -137,7 +138,7 @@ static void weigh(const Push *p, const Sheet *sheet, PushSample *s) {
 
 static void add_sample(Push *p, int vertex, unsigned near) {
     const Near *seen = &p->near[vertex];
-    double slack = NEAR_LIPSCHITZ * (seen->distance - (1 - SLACK) * p->clearance[vertex]);
+    double slack = NEAR_LIPSCHITZ * (seen->distance - (1 - p->slack) * p->clearance[vertex]);
     p->sample[p->nsamples++] =
         (PushSample){.vertex = vertex, .n = -1, .near = near, .budget = -1, .seen = seen->seen, .slack = slack};
 }
@@ -249,9 +250,9 @@ static double way_out(const Push *p, const BodyFrame *body, int place, int part,
    it: as far as there is room. 0: it may stay. */
 static double way_asked(const Push *p, const BodyFrame *body, int place, unsigned near, int part, Vec3 x,
                         double clearance, double distance, Vec3 *n) {
-    if (clearance - distance <= SLACK * clearance) return 0;
+    if (clearance - distance <= p->slack * clearance) return 0;
     double wanted = room_for(body, near, p->lattice->collide[place], part, x, clearance, distance, *n);
-    return wanted - distance <= SLACK * clearance ? 0 : way_out(p, body, place, part, x, wanted, distance, n);
+    return wanted - distance <= p->slack * clearance ? 0 : way_out(p, body, place, part, x, wanted, distance, n);
 }
 
 /* Pushes one sample out of the parts it is too near to. Distances change no faster than the
@@ -278,7 +279,7 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
         if (!(s->near >> part & 1)) continue;
         Vec3 n;
         double distance = body_frame_distance(body, part, x, clearance + REACH * p->field.scale, &n);
-        slack = fmin(slack, SLACK * clearance - (clearance - distance));
+        slack = fmin(slack, SLACK * clearance - (clearance - distance)); /* of the sweeps to come */
         double depth = way_asked(p, body, place, s->near, part, x, clearance, distance, &n);
         if (depth <= 0) continue;
         if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->field.scale;
@@ -302,18 +303,20 @@ static double sweep(Push *p, const BodyFrame *body, const Sheet *sheet, PushResu
 /* Sweeps until nothing is violated, or nothing gets better, or the cap. Returns the sum of the
    largest moves: nobody has gone farther. */
 static double sweep_all(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
-    double moved = 0, before = INFINITY;
-    for (int k = 0; k < SWEEPS_MAX; k++) {
-        double most = sweep(p, body, sheet, result);
-        if (most <= 0) return moved;
+    double moved = 0, before = INFINITY, most = 0;
+    bool stalls = false;
+    for (int k = 0; k < SWEEPS_MAX && !stalls; k++) {
+        p->slack = k == 0 ? 0 : SLACK;
+        most = sweep(p, body, sheet, result);
+        if (most <= 0) break;
         moved += most;
         result->sweeps++;
-        if (k % STALL == STALL - 1) {
-            if (most > 0.5 * before) break;
-            before = most;
-        }
+        if (k % STALL != STALL - 1) continue;
+        stalls = most > 0.5 * before;
+        before = most;
     }
-    result->capped = true;
+    p->slack = 0;
+    result->capped |= most > 0;
     return moved;
 }
 
