@@ -79,7 +79,7 @@ static void test_reference(void) {
 static const char *const families[] = {
     "smpl", "unity", "vrm", "xsens", "rigify", "genesis", "neuron", "acclaim_names", "optitrack", "kinect", "mmd",
     "opensim", "nameless", "lafan1", "unreal", "biped", "cat", "nameless_axis",
-    "swapped", "weapon", "zero_offsets", "chest_root", "nameless_split",
+    "swapped", "weapon", "zero_offsets", "chest_root", "nameless_split", "astride",
 };
 
 /* The largest angle between a bone of two poses, over the frames. Only limb bones have a direction
@@ -96,6 +96,18 @@ static double limb_difference(Rig *a, Rig *b) {
             most = fmax(most, angle(u, v));
         }
     }
+    return most;
+}
+
+static double foot_difference(Rig *a, Rig *b) {
+    double most = 0;
+    for (int frame = 0; frame < a->motion.nframes; frame++)
+        for (int foot = ROLE_LEFT_FOOT; foot <= ROLE_RIGHT_FOOT; foot += ROLE_RIGHT_FOOT - ROLE_LEFT_FOOT) {
+            const Figure *f = &a->figure, *g = &b->figure;
+            Vec3 u = mat_apply(rig_pose(a, frame).bone[foot].r, vec_sub(f->end[foot], f->start[foot]));
+            Vec3 v = mat_apply(rig_pose(b, frame).bone[foot].r, vec_sub(g->end[foot], g->start[foot]));
+            most = fmax(most, angle(u, v));
+        }
     return most;
 }
 
@@ -242,6 +254,20 @@ static void test_lying(void) {
     }
 }
 
+/* Who crouches on the toes for the whole take never shows how trunk, head and feet are at rest: the same take with a
+   human zero pose tells. */
+static void test_crouch(void) {
+    Rig told, found;
+    if (!OK(rig_open(&told, "tests/data/figure/crouch_tpose.bvh", NULL) &&
+                rig_open(&found, "tests/data/figure/crouch.bvh", NULL), "crouchers open")) return;
+    OK(turn_difference(&told, &found, ROLE_PELVIS) < 7, "a crouching pelvis turns the same way without a zero pose");
+    OK(turn_difference(&told, &found, ROLE_CHEST) < 3, "and the chest");
+    OK(turn_difference(&told, &found, ROLE_HEAD) < 13, "and the head");
+    OK(foot_difference(&told, &found) < 4, "and the feet point the same way, that never stand flat");
+    rig_close(&told);
+    rig_close(&found);
+}
+
 /* ---- real motions ---- */
 
 enum { WALKS = 1, STANDS = 2 }; /* goes ahead; head over pelvis and pelvis upright all the time */
@@ -383,6 +409,7 @@ int main(void) {
     test_options();
     test_upright();
     test_lying();
+    test_crouch();
     for (int i = 0; i < (int)(sizeof real / sizeof real[0]); i++) test_real(i);
     test_same_skeleton();
     test_no_size();

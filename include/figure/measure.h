@@ -14,4 +14,7 @@ MUST_CHECK bool figure_measure(const Motion *m, const FigureOptions *options, co
 typedef struct { double hips, thigh, shin, ankle, torso, shoulders, upper_arm, forearm, hand; } Lengths;
 void figure_shape(double k, const Lengths *lengths, Figure *f);
 
+/* How far an ankle usually is over the ball of a flat foot, in statures. */
+#define FIGURE_FOOT_RISE (0.06 / 1.70)
+
 #endif

@@ -27,8 +27,9 @@ double sample_distance(const Sample *s, int a, int b);
    least three where there are three. Returns their number. */
 int sample_best(const Sample *s, const double *score, int out[SAMPLE_BEST_MAX]);
 
-/* The same for the frames in which two joints are lowest. upright: file axes -> Y up. */
-int sample_lowest(const Sample *s, Mat3 upright, int a, int b, int out[SAMPLE_BEST_MAX]);
+/* The same for the frames in which a foot most likely stands flat: its tip is low, and the ankle about `rise`
+   (file units) over it. upright: file axes -> Y up. */
+int sample_standing(const Sample *s, Mat3 upright, int ankle, int tip, double rise, int out[SAMPLE_BEST_MAX]);
 
 /* The joint below `joint` (end sites too) that lies farthest from it in the first frame of
    the sample, but not beyond `limit`: what a foot stands on may hang below it. -1 where nothing

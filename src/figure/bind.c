@@ -3,8 +3,11 @@
    Where the zero pose is a human pose (T, A or hanging arms) it answers for the whole torso at
    once: all joint frames are parallel there. Where bones merely lie along an axis, frames of
    the motion answer: in those in which the performer stands straightest, up is up, and the
-   hip and shoulder lines give left; feet are flat where they stand lowest. */
+   hip and shoulder lines give left; feet are flat where they stand. Who crouches or lies for
+   the whole take never stands straight: there the skeleton itself tells what is up. */
 #include "figure/bind.h"
+
+#include "figure/measure.h"
 
 /* ---- means of rotations ---- */
 
@@ -54,6 +57,16 @@ static Mat3 stand_across(Vec3 left, Vec3 up) {
     Vec3 x = vec_unit_or(left, vec(1, 0, 0));
     Vec3 y = vec_unit_or(vec_mad(up, x, -vec_dot(up, x)), vec(0, 1, 0));
     return mat_columns(x, y, vec_cross(x, y));
+}
+
+/* Where another joint is, seen from the frame of `joint`: metres, mean over the sample. */
+static Vec3 seen_from(const Binder *b, int joint, int other) {
+    Vec3 sum = {0, 0, 0};
+    for (int i = 0; i < b->sample->count; i++) {
+        Vec3 d = vec_sub(place(b, i, other), place(b, i, joint));
+        sum = vec_add(sum, mat_apply(mat_transpose(turn(b, i, joint)), d));
+    }
+    return vec_scale(sum, 1.0 / b->sample->count);
 }
 
 /* ---- upright frames ---- */
@@ -129,35 +142,120 @@ static Mat3 head_from_rest(const Binder *b, const int *frames, int n, Mat3 rest)
     return mat_mul(rest, mat_axis_angle(vec(1, 0, 0), back - HEAD_BACK));
 }
 
-/* ---- feet ---- */
+/* ---- what the skeleton tells ---- */
 
-/* Flat, turned to where the toes point: from the zero pose. */
-static Mat3 foot_from_rest(const Binder *b, Role foot, Mat3 rest) {
-    Vec3 up = mat_column(rest, 1), along = rest_bone(b->skeleton, b->f, foot);
-    along = vec_mad(along, up, -vec_dot(along, up));
-    if (vec_len(along) < 0.5 || vec_dot(along, mat_column(rest, 2)) < 0) return rest;
-    return stand(vec_cross(up, along), up);
+/* The bind, turned about left so that `line`, which is upright in those who stand, leans by no more than `most`
+   (radians) against its up. line: in the joint's frame. */
+static Mat3 lean_within(Mat3 bind, Vec3 line, double most) {
+    Vec3 v = mat_apply(mat_transpose(bind), line);
+    double lean = atan2(v.z, v.y);
+    return mat_mul(bind, mat_axis_angle(vec(1, 0, 0), lean - clamp(lean, -most, most)));
 }
 
-/* The same from the frames in which ankle and toes are lowest. False where these do not tell:
-   no toes, foot upright, or frames that disagree. */
-static bool foot_from_frames(const Binder *b, Role foot, Mat3 *bind) {
-    int joint = b->f->roles.joint[foot], tip = b->f->toward[foot], frames[SAMPLE_BEST_MAX];
-    if (tip < 0) return false;
-    int n = sample_lowest(b->sample, b->f->upright, joint, tip, frames);
-    Mean mean = {{0, 0, 0, 0}, 0};
-    Vec3 ups = {0, 0, 0};
-    for (int i = 0; i < n; i++) {
-        Vec3 along = vec_sub(place(b, frames[i], tip), place(b, frames[i], joint));
-        Vec3 flat = vec(along.x, 0, along.z);
-        if (vec_len(flat) < 0.5 * vec_len(along)) return false;
-        Mat3 body = stand(vec_cross(vec(0, 1, 0), flat), vec(0, 1, 0));
-        Mat3 inverse = mat_transpose(turn(b, frames[i], joint));
-        mean_add(&mean, mat_mul(inverse, body));
-        ups = vec_add(ups, mat_column(inverse, 1));
+/* The spine's first bone over the pelvis and the line from the chest to the neck are upright in those who stand,
+   whatever the rig; bones shorter than this (in statures) say nothing. */
+static const double SAYS = 0.03;
+
+/* How much the frames know of a pelvis: all where somebody stands straight in them, else nothing. */
+static double known_pelvis(const Binder *b, const int *upright, int n) {
+    double straight = 0;
+    for (int i = 0; i < n; i++) straight += straightness(b, upright[i]) / n;
+    return smoothstep(0.85, 0.97, straight);
+}
+
+/* A pelvis that leans by more than this (radians) in all upright frames was not level in the zero pose. */
+static const double PELVIS_LEAN = 0.17;
+
+static Mat3 pelvis_from_rest(Mat3 rest, Mat3 level, double known) {
+    return lean_within(rest, mat_column(level, 1), PELVIS_LEAN + (1 - known) * PI);
+}
+
+static Mat3 pelvis_from_bones(const Binder *b, Mat3 level, double known) {
+    static const double STANDS = 0.44, NEVER_STANDS = 0.09; /* how far the frames may differ from the bones */
+    const Figure *f = b->f;
+    int pelvis = f->roles.joint[ROLE_PELVIS];
+    Vec3 first = {0, 0, 0};
+    for (int j = f->roles.joint[ROLE_CHEST]; j > pelvis; j = b->skeleton->joint[j].parent) {
+        Vec3 bone = seen_from(b, pelvis, j);
+        if (vec_len(bone) > SAYS * f->height) first = bone;
     }
-    *bind = mean_of(&mean);
-    return n >= 3 && vec_len(ups) / n > 0.97;
+    return vec_len(first) > 0 ? lean_within(level, first, NEVER_STANDS + known * (STANDS - NEVER_STANDS)) : level;
+}
+
+static Mat3 chest_from_bones(const Binder *b, Mat3 bind) {
+    const int *j = b->f->roles.joint;
+    if (j[ROLE_NECK] < 0 || j[ROLE_NECK] == j[ROLE_CHEST]) return bind;
+    Vec3 neck = seen_from(b, j[ROLE_CHEST], j[ROLE_NECK]);
+    return vec_len(neck) > SAYS * b->f->height ? lean_within(bind, neck, 0) : bind;
+}
+
+/* The head's only child, or the highest of several that is no eye and no hair, is about over it. */
+static Mat3 head_from_bones(const Binder *b, Mat3 bind) {
+    static const double LEAN = 0.2;
+    const Joint *joint = b->skeleton->joint;
+    int head = b->f->roles.joint[ROLE_HEAD], children = 0;
+    double highest = 0.6;
+    Vec3 top = {0, 0, 0};
+    for (int j = head + 1; j < b->skeleton->njoints; j++) children += joint[j].parent == head;
+    for (int j = head + 1; j < b->skeleton->njoints; j++) {
+        if (joint[j].parent != head) continue;
+        Vec3 at = seen_from(b, head, j);
+        double size = vec_len(at);
+        if (size < SAYS * b->f->height || size > 0.2 * b->f->height) continue;
+        double up = vec_dot(at, mat_column(bind, 1)) / size, aside = vec_dot(at, mat_column(bind, 0)) / size;
+        if (up > highest && (children == 1 || fabs(aside) < 0.2)) highest = up, top = at;
+    }
+    return vec_len(top) > 0 ? lean_within(bind, top, LEAN) : bind;
+}
+
+/* ---- feet ---- */
+
+/* Flat, pointing where `along` does, which falls by `slope` radians; the sole's up as near to `up` as can be. */
+static Mat3 sole(Vec3 along, Vec3 up, double slope) {
+    Vec3 left = vec_unit_or(vec_cross(up, along), vec(1, 0, 0));
+    Vec3 ahead = mat_apply(mat_axis_angle(left, -slope), along);
+    return mat_columns(left, vec_cross(ahead, left), ahead);
+}
+
+/* Along the shin upwards, on the mean: ankles bend forwards and back, but to the side only little. */
+static Vec3 up_the_shin(const Binder *b, Role foot) {
+    return vec_unit_or(seen_from(b, b->f->roles.joint[foot], b->f->roles.joint[foot - 1]), vec(0, 1, 0));
+}
+
+/* From the zero pose, where soles are level fore and aft; legs may stand astride there. */
+static Mat3 foot_from_rest(const Binder *b, Role foot, Mat3 rest) {
+    Vec3 along = rest_bone(b->skeleton, b->f, foot);
+    double fall = -vec_dot(along, mat_column(rest, 1));
+    if (fabs(fall) > 0.87 || vec_dot(along, mat_column(rest, 2)) <= 0) return rest;
+    return sole(along, up_the_shin(b, foot), asin(fall));
+}
+
+/* What lies ahead of the ankle and does not move against it: the toe joint, or the tip of a foot without one; or -1. */
+static int ball(const Binder *b, Role foot) {
+    int ankle = b->f->roles.joint[foot], toe = b->f->roles.joint[foot + 1];
+    bool ahead = toe >= 0 && vec_len(seen_from(b, ankle, toe)) > SAYS * b->f->height;
+    return ahead ? toe : b->f->toward[foot];
+}
+
+static int standing(const Binder *b, Role foot, int out[SAMPLE_BEST_MAX]) {
+    double rise = FIGURE_FOOT_RISE * b->f->height / b->f->unit;
+    return sample_standing(b->sample, b->f->upright, b->f->roles.joint[foot], ball(b, foot), rise, out);
+}
+
+/* From frames in which the foot stands: how far its line falls there, if that is about as usual. False where
+   the foot has no end, or points along the shin. */
+static bool foot_from_frames(const Binder *b, Role foot, Mat3 *bind) {
+    static const double UNUSUAL = 0.2;
+    int joint = b->f->roles.joint[foot], tip = ball(b, foot), frames[SAMPLE_BEST_MAX];
+    if (tip < 0) return false;
+    Vec3 along = seen_from(b, joint, tip), up = up_the_shin(b, foot);
+    double size = vec_len(along), slope = 0, usual = asin(clamp(FIGURE_FOOT_RISE * b->f->height / size, 0, 0.7));
+    along = vec_scale(along, 1 / size);
+    if (!(size > 0) || vec_len(vec_cross(up, along)) < 0.3) return false;
+    int n = standing(b, foot, frames);
+    for (int i = 0; i < n; i++) slope += asin(clamp(-mat_apply(turn(b, frames[i], joint), along).y, -1, 1)) / n;
+    *bind = sole(along, up, clamp(slope, usual - UNUSUAL, usual + UNUSUAL));
+    return true;
 }
 
 /* Toes lie as the foot does when it is flat. */
@@ -169,7 +267,7 @@ static void bind_toe(const Binder *b, Role foot, const Rest *rest) {
     f->bound[toe] = true;
     if (rest->human) { f->bind[toe] = f->bind[foot]; return; }
     Mean mean = {{0, 0, 0, 0}, 0};
-    int n = sample_lowest(b->sample, f->upright, f->roles.joint[foot], f->toward[foot], frames);
+    int n = standing(b, foot, frames);
     for (int i = 0; i < n; i++) {
         Mat3 flat = mat_mul(turn(b, frames[i], f->roles.joint[foot]), f->bind[foot].r);
         mean_add(&mean, mat_mul(mat_transpose(turn(b, frames[i], joint)), flat));
@@ -195,14 +293,9 @@ static void bind_foot(const Binder *b, Role foot, const Rest *rest, const int *u
 static void anchor_torso(const Binder *b, Role role, Role left, Role right) {
     Figure *f = b->f;
     int joint = f->roles.joint[role];
-    Vec3 sum = {0, 0, 0};
-    for (int i = 0; i < b->sample->count; i++) {
-        Vec3 p = vec_mid(place(b, i, f->roles.joint[left]), place(b, i, f->roles.joint[right]));
-        Vec3 d = vec_sub(p, place(b, i, joint));
-        sum = vec_add(sum, mat_apply(mat_transpose(turn(b, i, joint)), d));
-    }
+    Vec3 middle = vec_mid(seen_from(b, joint, f->roles.joint[left]), seen_from(b, joint, f->roles.joint[right]));
     Vec3 canonical = vec_mid(f->start[left], f->start[right]);
-    f->bind[role].t = vec_sub(vec_scale(sum, 1.0 / b->sample->count), mat_apply(f->bind[role].r, canonical));
+    f->bind[role].t = vec_sub(middle, mat_apply(f->bind[role].r, canonical));
     f->bound[role] = true;
 }
 
@@ -228,14 +321,20 @@ void figure_bind(const Skeleton *skeleton, const Sample *sample, const Rest *res
     const int *j = f->roles.joint;
     int upright[SAMPLE_BEST_MAX], n = choose_upright(&b, upright);
     for (int r = 0; r < ROLE_COUNT; r++) f->bind[r] = rigid_identity(), f->bound[r] = false;
+    Mat3 level = bind_from_line(&b, upright, n, ROLE_PELVIS, ROLE_RIGHT_THIGH, ROLE_LEFT_THIGH, 0.5);
+    double known = known_pelvis(&b, upright, n);
     if (rest->human) {
-        f->bind[ROLE_PELVIS].r = f->bind[ROLE_CHEST].r = rest->frame;
+        f->bind[ROLE_PELVIS].r = pelvis_from_rest(rest->frame, level, known);
+        f->bind[ROLE_CHEST].r = rest->frame;
         if (j[ROLE_HEAD] >= 0) f->bind[ROLE_HEAD].r = head_from_rest(&b, upright, n, rest->frame);
     } else {
-        f->bind[ROLE_PELVIS].r = bind_from_line(&b, upright, n, ROLE_PELVIS, ROLE_RIGHT_THIGH, ROLE_LEFT_THIGH, 0.5);
-        f->bind[ROLE_CHEST].r =
-            bind_from_line(&b, upright, n, ROLE_CHEST, ROLE_RIGHT_UPPER_ARM, ROLE_LEFT_UPPER_ARM, 0);
-        if (j[ROLE_HEAD] >= 0) f->bind[ROLE_HEAD].r = bind_like(&b, upright, n, j[ROLE_HEAD], ROLE_CHEST);
+        Mat3 chest = bind_from_line(&b, upright, n, ROLE_CHEST, ROLE_RIGHT_UPPER_ARM, ROLE_LEFT_UPPER_ARM, 0);
+        f->bind[ROLE_PELVIS].r = pelvis_from_bones(&b, level, known);
+        f->bind[ROLE_CHEST].r = chest_from_bones(&b, chest);
+        int all[SAMPLE_FRAMES_MAX];
+        for (int i = 0; i < sample->count; i++) all[i] = i;
+        if (j[ROLE_HEAD] >= 0)
+            f->bind[ROLE_HEAD].r = head_from_bones(&b, bind_like(&b, all, sample->count, j[ROLE_HEAD], ROLE_CHEST));
     }
     anchor_torso(&b, ROLE_PELVIS, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH);
     anchor_torso(&b, ROLE_CHEST, ROLE_LEFT_UPPER_ARM, ROLE_RIGHT_UPPER_ARM);

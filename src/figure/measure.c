@@ -107,7 +107,7 @@ static double torso_length(const Skeleton *skeleton, const Sample *s, const Rest
 }
 
 /* Height of the ankle over the lowest point of the foot where the foot is flat: in a human
-   zero pose, else in the frames in which it is lowest. Negative where the foot has no end. */
+   zero pose, else in the frames in which it stands. Negative where the foot has no end. */
 static double ankle_height(const Skeleton *skeleton, const Sample *s, const Rest *rest, const Figure *f, Role foot) {
     int ankle = f->roles.joint[foot], tip = f->toward[foot], toe = f->roles.joint[foot + 1], frames[SAMPLE_BEST_MAX];
     if (ankle < 0 || tip < 0) return -1;
@@ -117,7 +117,10 @@ static double ankle_height(const Skeleton *skeleton, const Sample *s, const Rest
         return fmax(vec_dot(up, vec_sub(from, rest_place(skeleton, tip))),
                     vec_dot(up, vec_sub(from, rest_place(skeleton, toe))));
     }
-    int n = sample_lowest(s, f->upright, ankle, tip, frames);
+    double leg = sample_distance(s, f->roles.joint[foot - 2], f->roles.joint[foot - 1]) +
+                 sample_distance(s, f->roles.joint[foot - 1], ankle);
+    double rise = FIGURE_FOOT_RISE * STATURE / (adult.thigh + adult.shin) * leg;
+    int n = sample_standing(s, f->upright, ankle, tip, rise, frames);
     Vec3 up = mat_apply(mat_transpose(f->upright), vec(0, 1, 0));
     double sum = 0;
     for (int i = 0; i < n; i++) {

@@ -54,10 +54,15 @@ int sample_best(const Sample *s, const double *score, int out[SAMPLE_BEST_MAX]) 
     return count;
 }
 
-int sample_lowest(const Sample *s, Mat3 upright, int a, int b, int out[SAMPLE_BEST_MAX]) {
-    double score[SAMPLE_FRAMES_MAX];
-    for (int i = 0; i < s->count; i++)
-        score[i] = -mat_apply(upright, vec_add(sample_point(s, i, a), sample_point(s, i, b))).y;
+int sample_standing(const Sample *s, Mat3 upright, int ankle, int tip, double rise, int out[SAMPLE_BEST_MAX]) {
+    double score[SAMPLE_FRAMES_MAX], floor = INFINITY, size = sample_distance(s, ankle, tip) + 1e-300;
+    for (int i = 0; i < s->count; i++) floor = fmin(floor, mat_apply(upright, sample_point(s, i, tip)).y);
+    for (int i = 0; i < s->count; i++) {
+        double low = mat_apply(upright, sample_point(s, i, tip)).y;
+        double high = mat_apply(upright, sample_point(s, i, ankle)).y;
+        /* The floor may have steps: what stands higher stands worse, but not more and more so. */
+        score[i] = -fabs(high - low - rise) / size - 0.5 * fmin((low - floor) / size, 1);
+    }
     return sample_best(s, score, out);
 }
 
