@@ -16,7 +16,7 @@ void pen_free(Pen *pen);
 /* What became of the meshes of one chunk. Clear with {0}; the press's until press_finish. */
 typedef struct {
     int waiting;         /* not yet on the disk */
-    double helped;       /* seconds that other threads spent on them */
+    double helped;       /* seconds that other threads spent for it, less those that it has waited for them */
     Error error;
 } PressTally;
 
@@ -34,12 +34,14 @@ typedef struct {
 
 /* Clear with {0}: a press without places, on which everybody writes his own. */
 typedef struct PressSheet PressSheet;
+typedef struct CrewRound CrewRound;
 typedef struct {
     pthread_mutex_t *lock; /* of the batch, as is the next: guards what follows */
     pthread_cond_t *change;
     PressSheet *sheet;     /* places for meshes that wait */
     int nsheets, first, count; /* a ring */
     int helpers;           /* threads that have nothing else to do */
+    CrewRound *rounds;     /* other work for them, see crew.h */
 } Press;
 
 MUST_CHECK bool press_open(Press *p, int threads, pthread_mutex_t *lock, pthread_cond_t *change, Arena *arena,
@@ -50,6 +52,9 @@ void press_close(Press *p);
    come up here too. */
 MUST_CHECK bool press_put(Press *p, Pen *pen, const PressOrder *order, const Mesh *mesh, Error *e);
 
+/* False, and *e tells, if a mesh of the tally has failed by now. */
+MUST_CHECK bool press_good(Press *p, const PressTally *tally, Error *e);
+
 /* Returns when all meshes of the tally are on the disk or one has failed, which *e then tells; writes
    what others have not begun. */
 void press_finish(Press *p, Pen *pen, PressTally *tally, Error *e);
@@ -57,5 +62,10 @@ void press_finish(Press *p, Pen *pen, PressTally *tally, Error *e);
 /* For a thread that is free and holds the lock, which it lends meanwhile: writes one mesh. False if
    none waits. */
 bool press_help(Press *p, Pen *pen);
+
+/* For the tally's own thread, with the lock held: writes one of its meshes, if any waits; waits for
+   others to change something. */
+bool press_write_own(Press *p, Pen *pen, const PressTally *tally);
+void press_wait(Press *p, PressTally *tally);
 
 #endif

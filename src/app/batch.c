@@ -1,10 +1,11 @@
 /* Many motions on many threads, and nothing that depends on which of them is done first.
 
    A worker that is free goes on with the motion it is at, else opens the next one, else helps with
-   the chunks of a motion that another has opened, else with writing (see press.c); so many short
-   motions and one long one both keep every worker busy. What a motion has to say is kept as text
-   until all motions before it have spoken, and the summary's rows are written at the end from an
-   array in the order of the inputs; so a run on sixteen threads reads like a run on one. */
+   the chunks of a motion that another has opened, else with a garment of a frame (see crew.c), else
+   with writing (see press.c); so many short motions and one long one both keep every worker busy. What
+   a motion has to say is kept as text until all motions before it have spoken, and the summary's rows
+   are written at the end from an array in the order of the inputs; so a run on sixteen threads reads
+   like a run on one. */
 #include "app/batch.h"
 
 #include <pthread.h>
@@ -13,6 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "app/crew.h"
 #include "app/folder.h"
 #include "app/progress.h"
 #include "app/stop.h"
@@ -194,7 +196,8 @@ static Slot *next_task(Batch *b, Worker *w, int *chunk) {
         }
         if (found || !any) break;
         b->press.helpers++;
-        if (!press_help(&b->press, &w->lane.pen)) pthread_cond_wait(&b->change, &b->lock);
+        Pen *pen = &w->lane.pen;
+        if (!crew_help(&b->press, pen) && !press_help(&b->press, pen)) pthread_cond_wait(&b->change, &b->lock);
         b->press.helpers--;
     }
     pthread_mutex_unlock(&b->lock);

@@ -2,11 +2,14 @@
 
        row -> pose -> body mesh -> each garment -> the press (OBJ, Draco), a row of statistics
 
+   A frame's garments are dressed side by side where threads are free (see crew.c).
+
    Read lane_run from its end upwards. Everything that a frame needs is taken before the first
    one; memory does not grow with the number of frames. A chunk begins with fresh dressers, for then it
    cannot know what its thread has dressed before. */
 #include "app/lane.h"
 
+#include "app/crew.h"
 #include "app/stop.h"
 #include "base/clock.h"
 
@@ -43,18 +46,35 @@ static bool relax_arms(Lane *lane, const Wardrobe *wardrobe, Take *take, Error *
 }
 
 /* Hands a mesh to the press; rows share the time of writing it. */
-static bool put(Run *r, const char *name, int frame, const Mesh *mesh, long long *bytes, StatsRow *row, int nrows,
-                Error *e) {
+static bool put(Run *r, Pen *pen, const char *name, int frame, const Mesh *mesh, long long *bytes, StatsRow *row,
+                int nrows, Error *e) {
     PressOrder order = {r->settings, r->work->folder, name, frame, r->work->unit, bytes, row, nrows, &r->tally};
-    return r->settings->formats == FORMAT_NONE || press_put(r->work->press, &r->lane->pen, &order, mesh, e);
+    return r->settings->formats == FORMAT_NONE || press_put(r->work->press, pen, &order, mesh, e);
 }
 
-static bool dress_garment(Run *r, int g, const TakeFrame *frame, StatsRow *row, Error *e) {
+/* The garments of a frame are dressed by whoever is free. row: of each; NULL: nothing is to be written. */
+typedef struct { Run *run; const TakeFrame *frame; StatsRow *row; } Fitting;
+
+static void dress_garment(void *context, int g, Pen *pen) {
+    Fitting *f = context;
+    Run *r = f->run;
     Mesh mesh;
+    FrameStats stats;
+    Error e = {0};
     double since = clock_seconds();
-    dresser_frame(r->lane->dresser[g], &r->lane->wearer.posed, frame->dt, frame->restart, &mesh, &row->stats);
+    dresser_frame(r->lane->dresser[g], &r->lane->wearer.posed, f->frame->dt, f->frame->restart, &mesh, &stats);
+    if (!f->row) return;
+    StatsRow *row = &f->row[g];
+    row->stats = stats;
     r->result->seconds[g] += clock_lap(&since);
-    return put(r, row->garment, frame->number, &mesh, &r->result->bytes[g], row, 1, e);
+    if (!put(r, pen, row->garment, f->frame->number, &mesh, &r->result->bytes[g], row, 1, &e))
+        return; /* the tally tells */
+}
+
+static bool dress_garments(Run *r, const TakeFrame *frame, StatsRow *row, Error *e) {
+    Fitting f = {r, frame, row};
+    crew_do(r->work->press, &r->lane->pen, &r->tally, dress_garment, &f, r->work->wardrobe->ngarments);
+    return press_good(r->work->press, &r->tally, e);
 }
 
 /* The rows share the time for the body. */
@@ -69,11 +89,11 @@ static bool dress_frame(Run *r, const TakeFrame *frame, double since, Error *e) 
                             .method = (Method)r->settings->method, .garment = r->work->wardrobe->garment[g]->name,
                             .pose_s = pose_s, .arm_turn = frame->arm_turn};
     Mesh body = wearer_skin(&r->lane->wearer);
-    if (!r->settings->no_body && !put(r, "body", frame->number, &body, &r->result->body_bytes, row, n, e)) return false;
-    for (int g = 0; g < n; g++) {
-        if (!dress_garment(r, g, frame, &row[g], e)) return false;
-        residual = residual || stats_has_residual(&row[g].stats);
-    }
+    if (!r->settings->no_body &&
+        !put(r, &r->lane->pen, "body", frame->number, &body, &r->result->body_bytes, row, n, e))
+        return false;
+    if (!dress_garments(r, frame, row, e)) return false;
+    for (int g = 0; g < n; g++) residual = residual || stats_has_residual(&row[g].stats);
     r->result->nrows += n;
     r->result->frames++;
     r->result->residual_frames += residual;
@@ -81,12 +101,9 @@ static bool dress_frame(Run *r, const TakeFrame *frame, double since, Error *e) 
 }
 
 /* A frame in front of the chunk: only what the cloth carries on from it is wanted. */
-static void warm_up(Run *r, const TakeFrame *frame) {
-    Mesh mesh;
-    FrameStats stats;
+static bool warm_up(Run *r, const TakeFrame *frame, Error *e) {
     body_frame_pose(&r->lane->wearer.posed, &frame->pose);
-    for (int g = 0; g < r->work->wardrobe->ngarments; g++)
-        dresser_frame(r->lane->dresser[g], &r->lane->wearer.posed, frame->dt, frame->restart, &mesh, &stats);
+    return dress_garments(r, frame, NULL, e);
 }
 
 static bool dress_frames(Run *r, Take *take, const LaneWatch *watch, Error *e) {
@@ -95,7 +112,7 @@ static bool dress_frames(Run *r, Take *take, const LaneWatch *watch, Error *e) {
     for (double since = clock_seconds(); take_next(take, &frame, e); since = clock_seconds()) {
         left--;
         if (frame.number < r->chunk->own) {
-            warm_up(r, &frame);
+            if (!warm_up(r, &frame, e)) return false;
             take_forget_jumps(take); /* they are the chunk's before */
         } else {
             if (!dress_frame(r, &frame, since, e)) return false;

@@ -56,9 +56,11 @@ static bool write_mesh(Pen *pen, const PressOrder *o, const Mesh *mesh, long lon
     return true;
 }
 
-static void count_order(const PressOrder *o, long long bytes, double seconds) {
+/* A mesh is written, or has failed. */
+static void settle(const PressOrder *o, long long bytes, double seconds, const Error *e) {
     *o->bytes += bytes;
     for (int i = 0; i < o->nrows; i++) o->row[i].write_s += seconds / o->nrows;
+    if (o->tally->error.kind == ERR_NONE) o->tally->error = *e;
 }
 
 /* Writes a mesh that is in the ring. Called and left with the lock held. */
@@ -72,8 +74,7 @@ static void write_sheet(Press *p, Pen *pen, PressSheet *s, bool as_helper) {
     double seconds = clock_seconds() - start;
     pthread_mutex_lock(p->lock);
     PressTally *tally = s->order.tally;
-    if (!good && tally->error.kind == ERR_NONE) tally->error = error;
-    count_order(&s->order, good ? bytes : 0, seconds);
+    settle(&s->order, good ? bytes : 0, seconds, &error);
     if (as_helper) tally->helped += seconds;
     tally->waiting--;
     s->order.tally = NULL;
@@ -97,6 +98,18 @@ bool press_help(Press *p, Pen *pen) {
     PressSheet *s = next_sheet(p, NULL);
     if (s) write_sheet(p, pen, s, true);
     return s != NULL;
+}
+
+bool press_write_own(Press *p, Pen *pen, const PressTally *tally) {
+    PressSheet *s = next_sheet(p, tally);
+    if (s) write_sheet(p, pen, s, false);
+    return s != NULL;
+}
+
+void press_wait(Press *p, PressTally *tally) {
+    double start = clock_seconds();
+    pthread_cond_wait(p->change, p->lock);
+    tally->helped -= clock_seconds() - start;
 }
 
 /* --- the ring --- */
@@ -160,22 +173,25 @@ bool press_put(Press *p, Pen *pen, const PressOrder *order, const Mesh *mesh, Er
     }
     long long bytes;
     double start = clock_seconds();
-    if (!write_mesh(pen, order, mesh, &bytes, e)) return false;
+    bool good = write_mesh(pen, order, mesh, &bytes, e);
     double seconds = clock_seconds() - start;
     if (p->nsheets) pthread_mutex_lock(p->lock);
-    count_order(order, bytes, seconds);
+    settle(order, good ? bytes : 0, seconds, e);
     if (p->nsheets) pthread_mutex_unlock(p->lock);
-    return true;
+    return good;
+}
+
+bool press_good(Press *p, const PressTally *tally, Error *e) {
+    if (p->nsheets) pthread_mutex_lock(p->lock);
+    bool good = take_error(tally, e);
+    if (p->nsheets) pthread_mutex_unlock(p->lock);
+    return good;
 }
 
 void press_finish(Press *p, Pen *pen, PressTally *tally, Error *e) {
-    if (!p->nsheets) return;
-    pthread_mutex_lock(p->lock);
-    while (tally->waiting > 0) {
-        PressSheet *s = next_sheet(p, tally);
-        if (s) write_sheet(p, pen, s, false);
-        else pthread_cond_wait(p->change, p->lock);
-    }
+    if (p->nsheets) pthread_mutex_lock(p->lock);
+    while (tally->waiting > 0)
+        if (!press_write_own(p, pen, tally)) press_wait(p, tally);
     take_error(tally, e);
-    pthread_mutex_unlock(p->lock);
+    if (p->nsheets) pthread_mutex_unlock(p->lock);
 }

@@ -1,0 +1,124 @@
+/* The crew: with helpers or without, every piece is done once and before the round is over, and meshes that
+   pieces hand over reach the disk. */
+#include "app/crew.h"
+
+#include <stdatomic.h>
+#include <string.h>
+
+#include "folder.h"
+#include "sheet.h"
+#include "tap.h"
+
+enum { ROUNDS = 200, PIECES = 5, HELPERS = 3 };
+
+typedef struct {
+    pthread_mutex_t lock;
+    pthread_cond_t change;
+    Press press;
+    bool is_over;
+    atomic_int by_helpers;
+} Hall;
+
+/* A thread without a motion, as in app/batch.c. */
+static void *help(void *context) {
+    Hall *hall = context;
+    Pen pen = {0};
+    pthread_mutex_lock(&hall->lock);
+    hall->press.helpers++;
+    while (!hall->is_over) {
+        if (crew_help(&hall->press, &pen)) hall->by_helpers++;
+        else if (!press_help(&hall->press, &pen)) pthread_cond_wait(&hall->change, &hall->lock);
+    }
+    hall->press.helpers--;
+    pthread_mutex_unlock(&hall->lock);
+    pen_free(&pen);
+    return NULL;
+}
+
+typedef struct {
+    Press *press;
+    PressOrder order;
+    PressTally tally;
+    int round;
+    int times[ROUNDS][PIECES];
+    long long bytes[PIECES];
+    atomic_int under_way, most;
+} Work;
+
+/* Some arithmetic, and a mesh in every tenth round. */
+static void piece(void *context, int index, Pen *pen) {
+    Work *w = context;
+    Sheet sheet;
+    Error e = {0};
+    double sum = 0;
+    int now = atomic_fetch_add(&w->under_way, 1) + 1;
+    for (int most = w->most; now > most && !atomic_compare_exchange_weak(&w->most, &most, now);) continue;
+    for (int k = 0; k < 20000 * (index + 1); k++) sum += sqrt(k);
+    w->times[w->round][index] += sum > 0;
+    if (w->round % 10 == 0) {
+        static const char *const names[PIECES] = {"a", "b", "c", "d", "e"};
+        PressOrder order = w->order;
+        order.name = names[index];
+        order.frame = w->round;
+        order.bytes = &w->bytes[index];
+        make_sheet(&sheet);
+        if (!press_put(w->press, pen, &order, &sheet.mesh, &e)) w->times[w->round][index] = -1;
+    }
+    atomic_fetch_sub(&w->under_way, 1);
+}
+
+/* How many pieces were not done once by the end of their round. */
+static int run_all(Press *press, const char *where, Work *w, Error *e) {
+    static const Settings settings = {.formats = FORMAT_OBJ};
+    static StatsRow row;
+    Pen pen = {0};
+    int wrong = 0;
+    memset(w, 0, sizeof *w);
+    w->press = press;
+    w->order = (PressOrder){&settings, where, NULL, 0, 1, NULL, &row, 1, &w->tally};
+    for (w->round = 0; w->round < ROUNDS; w->round++) {
+        crew_do(press, &pen, &w->tally, piece, w, PIECES);
+        for (int i = 0; i < PIECES; i++) wrong += w->times[w->round][i] != 1;
+        wrong += w->under_way != 0;
+    }
+    press_finish(press, &pen, &w->tally, e);
+    pen_free(&pen);
+    return wrong;
+}
+
+int main(void) {
+    static Work alone, helped;
+    Arena arena = {0};
+    Error e = {0};
+    Hall hall = {.is_over = false};
+    pthread_t helper[HELPERS];
+    if (!folder_make()) return 1;
+    pthread_mutex_init(&hall.lock, NULL);
+    pthread_cond_init(&hall.change, NULL);
+
+    OK(press_open(&hall.press, 1, &hall.lock, &hall.change, &arena, &e), "a press for one thread");
+    OK(run_all(&hall.press, folder, &alone, &e) == 0 && e.kind == ERR_NONE && alone.most == 1,
+       "alone: each piece is done once, one after the other");
+    press_close(&hall.press);
+
+    OK(press_open(&hall.press, HELPERS + 1, &hall.lock, &hall.change, &arena, &e), "a press for four threads");
+    for (int i = 0; i < HELPERS; i++) pthread_create(&helper[i], NULL, help, &hall);
+    OK(run_all(&hall.press, folder, &helped, &e) == 0 && e.kind == ERR_NONE, "helped: each piece is done once");
+    OK(hall.by_helpers > 0 && helped.most > 1, "helpers did %d of %d pieces, up to %d at a time", hall.by_helpers,
+       ROUNDS * PIECES, helped.most);
+    bool same = true;
+    for (int i = 0; i < PIECES; i++) same = same && helped.bytes[i] == alone.bytes[i] && helped.bytes[i] > 0;
+    OK(same && helped.tally.waiting == 0, "and what they wrote is as much as what one wrote alone");
+    run_all(&hall.press, in_folder("none"), &helped, &e);
+    OK(e.kind == ERR_OUTPUT, "a piece that cannot write is told: %s", e.text);
+
+    pthread_mutex_lock(&hall.lock);
+    hall.is_over = true;
+    pthread_cond_broadcast(&hall.change);
+    pthread_mutex_unlock(&hall.lock);
+    for (int i = 0; i < HELPERS; i++) pthread_join(helper[i], NULL);
+    press_close(&hall.press);
+    arena_free(&arena);
+    folder_remove();
+    return tap_done();
+}
