@@ -10,10 +10,13 @@ typedef struct {
     const Figure *figure;
     const Body *body;
     Vec3 (*curve)[4];                    /* control points of every curve in this pose */
-    Vec3 (*slope)[GARMENT_ROWS_MAX][4];  /* per panel and row: derivative across the rows */
-    Vec3 *node_slope;                    /* per node: sum of the slopes of its panels, */
-    double *node_length;                 /* of their lengths, */
-    int *node_uses;                      /* and their number */
+    Vec3 (*slope)[GARMENT_ROWS_MAX][2][4]; /* per panel and row: derivative across the rows, as taken by the
+                                              patch above it and by the one below */
+    int (*column)[GARMENT_ROWS_MAX][2];    /* per panel and row, at start and end: which column leads from
+                                              there to the next row */
+    Vec3 (*column_slope)[2];               /* per column, above and below: sum of its panels' slopes, */
+    double (*column_length)[2];            /* of their lengths, */
+    int *column_uses, ncolumns;            /* and how many of them draw it */
 } Follower;
 
 /* Takes the memory for a fit. Figure and body must outlive it. */
@@ -21,8 +24,9 @@ MUST_CHECK bool follow_reserve(Follower *f, const Fit *fit, const Figure *figure
                                Arena *arena, Error *e);
 
 /* The root patches (fit->npatches) of the garment in a pose: world frame, metres. Patches that
-   share control points get exactly equal ones. Tangent planes are continuous inside a panel
-   and, for garments that follow bones, across seams where arcs of one ring meet. */
+   share control points get exactly equal ones. Tangent planes are continuous inside a panel, but for
+   single points where seams part, and, for garments that follow bones, across seams where arcs of
+   one ring meet. */
 void follow_pose(Follower *f, const Pose *pose, Patch *out);
 
 #endif

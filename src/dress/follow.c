@@ -9,14 +9,46 @@
 
 #include "dress/envelope.h"
 
+static int column_end(const Fit *fit, int panel, int row, int end) {
+    return fit->curve[fit->panel[panel].curve[row]].node[end];
+}
+
+/* The number of the column that leads from a row of a panel to the next one: that of a panel before which
+   joins the same two nodes, or a new one. */
+static int find_column(const Follower *f, int panel, int row, int end) {
+    int above = column_end(f->fit, panel, row, end), below = column_end(f->fit, panel, row + 1, end);
+    for (int p = 0; p <= panel; p++)
+        for (int r = 0; r + 1 < f->fit->panel[p].nrows; r++)
+            for (int k = 0; k < 2; k++) {
+                if (p == panel && (r > row || (r == row && k >= end))) return f->ncolumns;
+                if (column_end(f->fit, p, r, k) == above && column_end(f->fit, p, r + 1, k) == below)
+                    return f->column[p][r][k];
+            }
+    return f->ncolumns;
+}
+
+static void number_columns(Follower *f) {
+    for (int p = 0; p < f->fit->npanels; p++)
+        for (int r = 0; r + 1 < f->fit->panel[p].nrows; r++)
+            for (int end = 0; end < 2; end++) {
+                int column = f->column[p][r][end] = find_column(f, p, r, end);
+                if (column == f->ncolumns) f->ncolumns++;
+                f->column_uses[column]++;
+            }
+}
+
 bool follow_reserve(Follower *f, const Fit *fit, const Figure *figure, const Body *body, Arena *arena, Error *e) {
     *f = (Follower){.fit = fit, .figure = figure, .body = body};
+    size_t columns = 2 * GARMENT_ROWS_MAX * (size_t)fit->npanels;
     f->curve = arena_array(arena, (size_t)fit->ncurves, sizeof *f->curve, e);
     f->slope = arena_array(arena, (size_t)fit->npanels, sizeof *f->slope, e);
-    f->node_slope = ARENA_NEW(arena, Vec3, fit->nnodes, e);
-    f->node_length = ARENA_NEW(arena, double, fit->nnodes, e);
-    f->node_uses = ARENA_NEW(arena, int, fit->nnodes, e);
-    return f->curve && f->slope && f->node_slope && f->node_length && f->node_uses;
+    f->column = arena_array(arena, (size_t)fit->npanels, sizeof *f->column, e);
+    f->column_slope = arena_array(arena, columns, sizeof *f->column_slope, e);
+    f->column_length = arena_array(arena, columns, sizeof *f->column_length, e);
+    f->column_uses = ARENA_NEW(arena, int, columns, e);
+    if (!f->curve || !f->slope || !f->column || !f->column_slope || !f->column_length || !f->column_uses) return false;
+    number_columns(f);
+    return true;
 }
 
 /* Weighted bones as one rigid motion, by dual quaternions (Kavan et al. 2007): between two bones
@@ -81,29 +113,28 @@ static Vec3 row_slope(const Follower *f, const FitPanel *panel, int r, int k) {
     return vec_sub(vec_scale(chord, 2), row_slope(f, panel, inner, k));
 }
 
-/* Ends of rows are nodes, which other panels share: all take the mean, so the edge between two
-   nodes is one curve whoever draws it, also where four panels meet at a crotch. Where panels part,
-   as at the bottom of a neckline, the mean is shortened by how much they disagree, squared:
-   with the plain share their borders still ran side by side for a facet. */
+/* Panels that draw the same column between two nodes take the mean of their slopes for it, shortened by how
+   much they disagree, so that it is one curve whoever draws it. Where seams part, as at a crotch or at the
+   bottom of a neckline, each goes its own way from the node: with one slope for all, a crotch would be a
+   spike, and the borders of a neckline would run side by side for a facet. */
 static void share_slopes(Follower *f) {
     const Fit *fit = f->fit;
-    memset(f->node_slope, 0, (size_t)fit->nnodes * sizeof *f->node_slope);
-    memset(f->node_uses, 0, (size_t)fit->nnodes * sizeof *f->node_uses);
-    memset(f->node_length, 0, (size_t)fit->nnodes * sizeof *f->node_length);
+    memset(f->column_slope, 0, (size_t)f->ncolumns * sizeof *f->column_slope);
+    memset(f->column_length, 0, (size_t)f->ncolumns * sizeof *f->column_length);
     for (int pass = 0; pass < 2; pass++)
         for (int p = 0; p < fit->npanels; p++)
-            for (int r = 0; r < fit->panel[p].nrows; r++)
-                for (int end = 0; end < 2; end++) {
-                    int node = fit->curve[fit->panel[p].curve[r]].node[end];
-                    Vec3 *slope = &f->slope[p][r][3 * end], sum = f->node_slope[node];
-                    double length = f->node_length[node];
+            for (int r = 0; r + 1 < fit->panel[p].nrows; r++)
+                for (int end = 0; end < 4; end++) {
+                    int column = f->column[p][r][end % 2], below = end / 2;
+                    Vec3 *slope = &f->slope[p][r + below][!below][3 * (end % 2)];
+                    Vec3 *sum = &f->column_slope[column][below];
+                    double *length = &f->column_length[column][below];
                     if (pass == 0) {
-                        f->node_slope[node] = vec_add(sum, *slope);
-                        f->node_length[node] += vec_len(*slope);
-                        f->node_uses[node]++;
+                        *sum = vec_add(*sum, *slope);
+                        *length += vec_len(*slope);
                     } else {
-                        double agreement = length > 0 ? vec_len(sum) / length : 1;
-                        *slope = vec_scale(sum, agreement * agreement / f->node_uses[node]);
+                        double agreement = *length > 0 ? vec_len(*sum) / *length : 1;
+                        *slope = vec_scale(*sum, agreement / f->column_uses[column]);
                     }
                 }
 }
@@ -111,7 +142,8 @@ static void share_slopes(Follower *f) {
 static void slopes_by_rows(Follower *f) {
     for (int p = 0; p < f->fit->npanels; p++)
         for (int r = 0; r < f->fit->panel[p].nrows; r++)
-            for (int k = 0; k < 4; k++) f->slope[p][r][k] = row_slope(f, &f->fit->panel[p], r, k);
+            for (int k = 0; k < 4; k++)
+                f->slope[p][r][0][k] = f->slope[p][r][1][k] = row_slope(f, &f->fit->panel[p], r, k);
 }
 
 /* Arcs of one ring that meet at a node from both sides get handles on one line. */
@@ -151,7 +183,7 @@ static void curves_by_envelope(Follower *f, const Pose *pose) {
             for (int k = 0; k < 4; k++) {
                 Vec3 above = envelope_point(&env, s - step, curve->unit[k][0], curve->unit[k][1]);
                 Vec3 below = envelope_point(&env, s + step, curve->unit[k][0], curve->unit[k][1]);
-                f->slope[p][r][k] = vec_scale(vec_sub(below, above), 0.5 / step);
+                f->slope[p][r][0][k] = f->slope[p][r][1][k] = vec_scale(vec_sub(below, above), 0.5 / step);
             }
         }
     straighten_handles(f);
@@ -169,10 +201,9 @@ static void loft(const Follower *f, const FitPatch *patch, Patch *out) {
     const FitPanel *panel = &f->fit->panel[patch->panel];
     int r = patch->row;
     const Vec3 *above = f->curve[panel->curve[r]], *below = f->curve[panel->curve[r + 1]];
+    const Vec3 *leave = f->slope[patch->panel][r][1], *arrive = f->slope[patch->panel][r + 1][0];
     double h = span(f, panel, r);
-    for (int k = 0; k < 4; k++)
-        bezier_from_hermite(above[k], f->slope[patch->panel][r][k], below[k], f->slope[patch->panel][r + 1][k], h,
-                            out->p[k]);
+    for (int k = 0; k < 4; k++) bezier_from_hermite(above[k], leave[k], below[k], arrive[k], h, out->p[k]);
 }
 
 static void follow_raw(const Follower *f, const FitPatch *patch, const Pose *pose, Patch *out) {
