@@ -236,6 +236,18 @@ static void test_not_human(void) {
     OK(!good && strstr(r.e.text, "roles: chest, left_upper_arm, left_forearm, right_upper_arm, right_forearm"),
        "legs alone are refused, and only what is missing is named");
     rig_close(&r);
+    static const char *const refused[][2] = {
+        {"dog", "a dog is refused, though its joints have the names of a human's"},
+        {"one_arm", "who has one arm is refused: neck and head are no other"},
+    };
+    for (int i = 0; i < 2; i++) {
+        char path[256];
+        snprintf(path, sizeof path, "tests/data/figure/%s.bvh", refused[i][0]);
+        good = rig_roles(&r, path, NULL);
+        OK(!good && r.e.kind == ERR_INPUT && strstr(r.e.text, "missing roles: chest, left_upper_arm"), "%s",
+           refused[i][1]);
+        rig_close(&r);
+    }
 }
 
 static void test_oddities(void) {
@@ -253,6 +265,11 @@ static void test_oddities(void) {
     OK(rig_roles(&r, "tests/data/figure/chest_root.bvh", NULL) && strcmp(rig_joint(&r, ROLE_PELVIS), "Hips") == 0 &&
            strcmp(rig_joint(&r, ROLE_HEAD), "Head") == 0,
        "a tree that hangs from the chest");
+    rig_close(&r);
+    OK(rig_roles(&r, "tests/data/figure/torso_root.bvh", NULL) && strcmp(rig_joint(&r, ROLE_PELVIS), "Torso") == 0 &&
+           strcmp(rig_joint(&r, ROLE_CHEST), "Torso") == 0,
+       "a trunk of one bone, from which all limbs hang");
+    OK(strcmp(rig_joint(&r, ROLE_HEAD), "x2") == 0, "a head without a name ends where eyes grow from it");
     rig_close(&r);
 }
 

@@ -10,9 +10,14 @@ enum { PAIRS = 8 };
    against the leg (thigh + shin). */
 static const double ARM_BY_LEG = 0.66, TORSO_BY_LEG = 0.62;
 static const double ODD_LENGTHS = 4, LEGS_DOWN = 6, NO_HEAD = 3, STATURE_BY_LIMBS = 1.70 / 1.305;
-/* Points below which two pairs are no human: without any name one gets about 35, with names 150.
-   And below which a pair alone is not worth a word. */
-static const double HUMAN = 20, PAIR_ALONE = 30;
+/* Beyond these (arm against leg, torso against leg) it is a bird or a giraffe, whatever the names say. People have
+   0.5 to 0.7, figures of fancy up to twice that. */
+static const double ARM_LEAST = 0.3, ARM_MOST = 1.6, TORSO_LEAST = 0.2, TORSO_MOST = 1.8;
+/* Who has forelegs like hind legs, a long back, and never stretches the legs along it, goes on all fours. */
+static const double FORELEG = 0.8, LONG_BACK = 0.8, ACROSS = 0.35;
+/* Points below which two pairs are no human: without any name one gets about 35, with names 150. What each pair
+   must have by itself, and a pair with a name; below that a pair alone is not worth a word. */
+static const double HUMAN = 20, PAIR_LEAST = 5, PAIR_NAMED = 30;
 
 static double square(double x) { return x * x; }
 
@@ -48,9 +53,25 @@ static int root_of(const Tree *t, int joint) {
     return joint;
 }
 
-static double human_score(const Tree *t, const LimbPair *legs, const LimbPair *arms) {
-    if (legs->hub == arms->hub || tangled(t, legs, arms)) return -1e9;
-    if (root_of(t, legs->hub) != root_of(t, arms->hub)) return -1e9; /* two performers in one file */
+typedef struct {
+    const LimbPair *legs, *arms;
+    double arm, torso; /* lengths against the leg */
+    double down;       /* mean cosine between legs and torso: 1 where they always go on from it */
+    double score;
+} Candidate;
+
+/* Could this be a human? Asked of the best candidate only: who is a dog by names is no human by other limbs. */
+static bool possible(const Candidate *c) {
+    if (c->arm < ARM_LEAST || c->arm > ARM_MOST || c->torso < TORSO_LEAST || c->torso > TORSO_MOST) return false;
+    return c->arm < FORELEG || c->torso < LONG_BACK || c->down > ACROSS;
+}
+
+/* False for two pairs that cannot belong together. */
+static bool human_score(const Tree *t, const LimbPair *legs, const LimbPair *arms, Candidate *out) {
+    if (legs->score < PAIR_LEAST || arms->score < PAIR_LEAST || tangled(t, legs, arms)) return false;
+    /* A trunk of one bone must be told by names: stars have many arms. */
+    if (legs->hub == arms->hub && (legs->score < PAIR_NAMED || arms->score < PAIR_NAMED)) return false;
+    if (root_of(t, legs->hub) != root_of(t, arms->hub)) return false; /* two performers in one file */
     double leg = legs->limb[0].length[0] + legs->limb[0].length[1];
     double arm = arms->limb[0].length[0] + arms->limb[0].length[1];
     double trunk = 0, down = 0;
@@ -64,11 +85,11 @@ static double human_score(const Tree *t, const LimbPair *legs, const LimbPair *a
             if (size > 0) down -= vec_dot(d, up) / size / 2 / t->sample->count;
         }
     }
-    if (trunk <= 0.05 * leg) return -1e9;
-    double score = legs->score + arms->score + LEGS_DOWN * down;
-    score -= ODD_LENGTHS * (square(log(arm / leg / ARM_BY_LEG)) + square(log(trunk / leg / TORSO_BY_LEG)));
-    if (!has_head(t, arms)) score -= NO_HEAD;
-    return score;
+    if (trunk <= 0.05 * leg) return false;
+    *out = (Candidate){legs, arms, arm / leg, trunk / leg, down, legs->score + arms->score + LEGS_DOWN * down};
+    out->score -= ODD_LENGTHS * (square(log(out->arm / ARM_BY_LEG)) + square(log(out->torso / TORSO_BY_LEG)));
+    if (!has_head(t, arms)) out->score -= NO_HEAD;
+    return true;
 }
 
 /* ---- left and right ---- */
@@ -264,20 +285,21 @@ static int head_branch(const Tree *t, const Human *h, int joint) {
     return best;
 }
 
+/* The child that a chain goes on with, or -1 where it ends or parts: eyes, jaw and hair grow from a head. */
+static int goes_on(const Tree *t, const Human *h, int joint) {
+    int next = -1, many = 0;
+    for (int c = t->child[joint]; c >= 0; c = t->sibling[c])
+        if (t->bone[c] + t->reach[c] > 0.02 * h->stature) next = c, many++;
+    return many == 1 && !t->skeleton->joint[next].is_end ? next : -1;
+}
+
 /* Without names: the last joint on the way up that is not yet the top of the head. */
 static int head_by_shape(const Tree *t, const Human *h, int first) {
     int head = first;
-    for (int j = first; j >= 0;) {
+    for (int j = first; j >= 0; j = goes_on(t, h, j)) {
         double height = over_shoulders(t, h, j);
         if (j != first && (height > 0.14 * h->stature || height < over_shoulders(t, h, head))) break;
         head = j;
-        int next = -1;
-        double longest = 0;
-        for (int c = t->child[j]; c >= 0; c = t->sibling[c]) {
-            double length = t->bone[c] + t->reach[c];
-            if (!t->skeleton->joint[c].is_end && length > longest) longest = length, next = c;
-        }
-        j = next;
     }
     return head;
 }
@@ -321,32 +343,28 @@ static void set_limbs(const Tree *t, const LimbPair *legs, const LimbPair *arms,
 void human_find(const Tree *t, Notes *notes, Roles *out) {
     LimbPair legs[PAIRS], arms[PAIRS];
     int nlegs = limbs_find(t, LIMB_LEG, PAIRS, legs), narms = limbs_find(t, LIMB_ARM, PAIRS, arms);
-    const LimbPair *best_legs = NULL, *best_arms = NULL;
-    double best = HUMAN;
+    Candidate best = {.score = HUMAN}, c;
     for (int r = 0; r < ROLE_COUNT; r++) out->joint[r] = -1;
     for (int l = 0; l < nlegs; l++)
-        for (int a = 0; a < narms; a++) {
-            double score = human_score(t, &legs[l], &arms[a]);
-            if (score > best) best = score, best_legs = &legs[l], best_arms = &arms[a];
-        }
-    if (best_legs) {
-        Human h = {best_legs, best_arms, 0};
-        h.stature = best_legs->limb[0].length[0] + best_legs->limb[0].length[1];
+        for (int a = 0; a < narms; a++)
+            if (human_score(t, &legs[l], &arms[a], &c) && c.score > best.score) best = c;
+    if (best.legs && possible(&best)) {
+        Human h = {best.legs, best.arms, best.legs->limb[0].length[0] + best.legs->limb[0].length[1]};
         for (int f = 0; f < t->sample->count; f++)
-            h.stature += vec_len(torso(t, f, best_legs, best_arms)) / t->sample->count;
+            h.stature += vec_len(torso(t, f, best.legs, best.arms)) / t->sample->count;
         h.stature *= STATURE_BY_LIMBS;
-        set_limbs(t, best_legs, best_arms, left_leg(t, best_legs, best_arms, notes),
-                  same_side(t, best_legs, best_arms), out);
+        set_limbs(t, best.legs, best.arms, left_leg(t, best.legs, best.arms, notes),
+                  same_side(t, best.legs, best.arms), out);
         set_torso(t, &h, out);
         return;
     }
-    /* No human: name the limbs that names make certain, so that the message is of use. */
-    if (nlegs > 0 && legs[0].score > PAIR_ALONE) {
+    /* No human: name the limbs that names make certain, so that the message is of use. Arms that do not go with
+       the legs are missing. */
+    if (nlegs > 0 && legs[0].score > PAIR_NAMED) {
         int left = named_side(&legs[0]) < 0 ? -1 : 1;
         set_limbs(t, &legs[0], NULL, left, 1, out);
         out->joint[ROLE_PELVIS] = legs[0].hub;
-    }
-    if (narms > 0 && arms[0].score > PAIR_ALONE) {
+    } else if (narms > 0 && arms[0].score > PAIR_NAMED) {
         int left = named_side(&arms[0]) < 0 ? -1 : 1;
         set_limbs(t, NULL, &arms[0], left, 1, out);
         out->joint[ROLE_CHEST] = arms[0].hub;

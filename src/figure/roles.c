@@ -117,11 +117,11 @@ static bool check_required(const Motion *m, const Roles *roles, Error *e) {
     return error_set(e, ERR_INPUT, "no human skeleton in '%s': missing roles: %s", m->path ? m->path : "motion", list);
 }
 
-/* A role file can ask for one joint twice; the search cannot. */
+/* A role file can ask for one joint twice; the search cannot. Only a trunk may be of one bone. */
 static bool check_distinct(const Skeleton *s, const Roles *roles, Error *e) {
     for (int a = 0; a < ROLE_COUNT; a++)
         for (int b = a + 1; b < ROLE_COUNT; b++)
-            if (roles->joint[a] >= 0 && roles->joint[a] == roles->joint[b])
+            if (roles->joint[a] >= 0 && roles->joint[a] == roles->joint[b] && !(a == ROLE_PELVIS && b == ROLE_CHEST))
                 return error_set(e, ERR_INPUT, "joint '%s' plays two roles: %s and %s", s->joint[roles->joint[a]].name,
                                  names[a], names[b]);
     return true;
