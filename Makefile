@@ -21,7 +21,7 @@ ifeq ($(MODE),)
 $(error BUILD must be release, debug or san, not '$(BUILD)')
 endif
 # Same bytes from every build and compiler: no contraction to FMA, no fast-math, no -march.
-ALL_CFLAGS   = -std=c11 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -fno-math-errno -pthread $(CWARN) $(MODE) $(CFLAGS)
+ALL_CFLAGS   = -std=c11 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -fno-math-errno -fno-trapping-math -pthread $(CWARN) $(MODE) $(CFLAGS)
 ALL_CXXFLAGS = -std=c++17 -ffp-contract=off -Wall -Wextra $(MODE) $(CXXFLAGS)
 ALL_CPPFLAGS = -iquote include -DKITSUKE_VERSION='"$(VERSION)"' $(CPPFLAGS)
 LIBS   = -ldraco -lm -pthread

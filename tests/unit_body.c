@@ -204,6 +204,38 @@ static void test_bounds(const Body *b) {
          -fmin(middle.side, fmin(middle.front, middle.back)), 0.003, "on the axis the depth is the smaller half size");
 }
 
+/* Many points at a time, with any vectors, get the very numbers that each gets alone: round a part, on its axis, far
+   above its end, and whatever stands beside them. */
+static void test_many(const Body *b) {
+    enum { N = 500 };
+    static const double reaches[] = {0, 0.04, INFINITY};
+    unsigned seed = 5;
+    Vec3 p[N];
+    double distance[N];
+    for (Vectors v = VECTORS_BEST; v < VECTORS_COUNT; v++) {
+        int wrong = 0;
+        if (!vectors_usable(v)) continue;
+        for (int i = 0; i < b->nparts; i++) {
+            const BodyPart *part = &b->part[i];
+            Rigid to_part = rigid_inverse(part->frame);
+            for (int k = 0; k < N; k++) {
+                double width = k % 10 == 0 ? 0 : 2 * part->reach * uniform(&seed);
+                double phi = 2 * PI * uniform(&seed), at = 1.4 * uniform(&seed) - 0.2;
+                Vec3 in_part = vec(width * sin(phi), height_at(part, k % 3 ? at : 0.1 * at), width * cos(phi));
+                p[k] = rigid_apply(part->frame, in_part);
+            }
+            for (int r = 0; r < 3; r++) {
+                body_distances(part, v, &to_part, p, N, reaches[r], distance);
+                for (int k = 0; k < N; k++) {
+                    double alone = body_distance(part, rigid_apply(to_part, p[k]), reaches[r], NULL);
+                    wrong += distance[k] != fmin(alone, reaches[r]);
+                }
+            }
+        }
+        OK(wrong == 0, "many points are measured as each alone, vectors %d (%d differ)", v, wrong);
+    }
+}
+
 static void test_patches(const Body *b) {
     const Patch *patch = b->patch;
     int open_rows = 0, open_sides = 0, inward = 0;
@@ -474,6 +506,7 @@ int main(void) {
     if (OK(fit(&f, 16, &reference), "the reference fits")) {
         test_distance(&reference);
         test_bounds(&reference);
+        test_many(&reference);
         test_patches(&reference);
         test_monotone(&reference);
         test_symmetry(&reference);

@@ -7,6 +7,7 @@
 
 typedef struct {
     const Body *body;
+    Vectors vectors;               /* to measure many distances with */
     double unit;                   /* output units per metre */
     Pose pose;
     Vec3 *position, *normal;       /* skin.nvertices; positions in output units, snapped to the
@@ -30,8 +31,10 @@ void body_frame_pose(BodyFrame *f, const Pose *pose);
    See body_distance for `far`. */
 double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal);
 
-/* The same from a part as it is where nothing presses on it: never more than that, and cheaper. */
+/* The same from a part as it is where nothing presses on it: never more than that, and cheaper. For one point and
+   for n. */
 double body_frame_unpressed(const BodyFrame *f, int part, Vec3 p, double far);
+void body_frame_unpressed_many(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance);
 
 /* Is a world point inside any of `parts` (bits 1 << role)? */
 bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p);

@@ -1,26 +1,33 @@
-/* Which parts are near which vertex of a sheet: found for sixteen at a time, and found again only where
-   something has moved. */
+/* Which parts are near which vertex of a sheet, and how near: found for sixteen vertices at a time, and good for
+   some way that they move. */
 #ifndef DRESS_NEAR_H
 #define DRESS_NEAR_H
 
 #include "dress/tessellate.h"
 
-/* A vertex and the parts that its place keeps out of, as they are where nothing presses on them: those that
-   have given way are no nearer. */
+/* A point and the parts near it. Distances are those where nothing presses on the parts, or less: what has given
+   way is no nearer. */
 typedef struct {
-    Vec3 seen;       /* where the vertex was when it was asked about */
-    double distance; /* to the nearest part, or `far` */
-    unsigned parts;  /* nearer than `far`: bits 1 << part */
+    Vec3 seen;                      /* the point that all this holds for */
+    unsigned parts;                 /* bits 1 << part */
+    float least;                    /* their least distance; what it was asked for where there is none */
+    float distance[BODY_PARTS_MAX]; /* of those in `parts` */
 } Near;
 
-/* Fills near[v] for all vertices, the n-th at point[n]. known: those that stand where they were seen stay. */
+/* Fills near[v] for all vertices, the n-th at point[n], with the parts that are nearer than `far` of those that
+   its place keeps out of. known: those that stand where they were seen stay. */
 void near_find(Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3 *point, double far, bool known);
 
-/* Is a vertex that is at p now farther than `clearance` from all its parts for certain? Distances are of first
-   order, so that only a share of them is trusted. */
-bool near_none(const Near *near, Vec3 p, double clearance);
+/* Leaves only the parts that have one of the roles (bits 1 << role). */
+void near_keep(Near *near, const BodyFrame *body, unsigned roles);
 
-/* The share. */
-#define NEAR_LIPSCHITZ 0.8
+/* How far the point may go before a part at `distance` can be nearer than `clearance`. */
+double near_slack(double distance, double clearance);
+
+/* The point is at p now. Parts may have come nearer by as much as it has gone. */
+void near_move(Near *near, Vec3 p);
+
+/* Finds the least distance anew. */
+void near_sum(Near *near, double far);
 
 #endif

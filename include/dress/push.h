@@ -8,14 +8,12 @@
 /* A mesh vertex near the body, with the level vertices that move it. Private. */
 typedef struct {
     int vertex, n;                    /* n: level vertices; -1 until somebody asks */
-    unsigned near;                    /* parts (bit 1 << part) worth asking */
     int id[4 * LATTICE_LEVELS];       /* into Field.displacement */
     double weight[4 * LATTICE_LEVELS], norm2;
     double spent, budget;             /* push issued in this frame, and its limit; metres */
     Vec3 net;                         /* their sum */
-    Vec3 seen;                        /* where it was when its distances were last taken, */
-    double slack;                     /* how far it may go from there before that matters, */
-    double travelled;                 /* and what it had gone at most by then (Push.travel) */
+    Near near;                        /* parts worth asking, and where it was when they were last asked; */
+    double travelled;                 /* what it had gone at most by then (Push.travel) */
 } PushSample;
 
 /* The displacement and the solver's memory. */

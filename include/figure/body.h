@@ -14,6 +14,7 @@
 #include "figure/figure.h"
 #include "geometry/bezier.h"
 #include "geometry/mesh.h"
+#include "geometry/vectors.h"
 
 /* Lengths in metres. at: place along the bone, 0 = start, 1 = end; may lie outside. */
 typedef struct {
@@ -101,6 +102,24 @@ void body_pose(const Body *b, const Pose *pose, Vec3 *positions, Vec3 *normals);
    not NULL, gets the outward unit normal in the part frame. Beyond `far` metres it may
    return any value >= far that is not larger than the true distance, without a normal. */
 double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal);
+
+/* The same for n points that *to_part takes to the part frame, `far` where that is less: to the bit, with any
+   vectors. Points that stand together are the cheapest. */
+void body_distances(const BodyPart *part, Vectors vectors, const Rigid *to_part, const Vec3 *p, int n, double far,
+                    double *out);
+
+/* Private: the interval between sections that holds y, low <= y <= high: a table look-up and rarely a step or
+   two. The poles have no size, so distances are taken BODY_POLE (metres) inside of them; where a normal leans
+   along y by more than BODY_LEANING, they are taken twice. */
+static inline int body_interval(const BodyPart *part, double y) {
+    int b = (int)((y - part->low) * part->buckets_per_metre);
+    int i = part->bucket[b < BODY_BUCKETS ? b : BODY_BUCKETS - 1];
+    while (i + 2 < part->nsections && part->section[i + 1].at <= y) i++;
+    while (i > 0 && part->section[i].at > y) i--; /* a rounding beside a bucket's edge */
+    return i;
+}
+#define BODY_POLE 1e-6
+#define BODY_LEANING 0.2
 
 /* The section at height y of the part frame, clamped to the part's range. *slope, if not NULL,
    gets d/dy of its values. */

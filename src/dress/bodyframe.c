@@ -73,6 +73,10 @@ double body_frame_unpressed(const BodyFrame *f, int part, Vec3 p, double far) {
     return own_distance(f, part, p, far, NULL);
 }
 
+void body_frame_unpressed_many(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance) {
+    body_distances(&f->body->part[part], f->vectors, &f->to_part[part], p, n, far, distance);
+}
+
 bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p) {
     for (int k = 0; k < f->body->nparts; k++)
         if (parts & part_bit(f, k) && body_frame_distance(f, k, p, 0, NULL) < 0) return true;

@@ -1,11 +1,12 @@
-/* Vertices that follow each other lie near each other: one box round sixteen of them leaves out most parts
-   at once. A part that is far from where a vertex was stays far while the vertex moves a little, so what has
-   been found is good until then. */
+/* Distances change no faster than the point moves; they are of first order, so no more than a share of a slack is
+   trusted. Vertices that follow each other lie near each other: one box round sixteen of them leaves out most
+   parts at once, and the rest is asked for all of them in one go. */
 #include "dress/near.h"
 
 #include "geometry/boxtree.h"
 
 enum { BLOCK = 16 };
+static const double LIPSCHITZ = 0.8;
 
 /* Parts whose boxes come nearer than `far` to any of n points: bits 1 << part. */
 static unsigned parts_round(const BodyFrame *body, const Vec3 *point, int n, double far) {
@@ -18,32 +19,66 @@ static unsigned parts_round(const BodyFrame *body, const Vec3 *point, int n, dou
     return parts;
 }
 
-static Near ask(const BodyFrame *body, unsigned parts, unsigned roles, Vec3 p, double far) {
-    Near near = {.seen = p, .distance = far};
-    for (int k = 0; parts >> k; k++) {
-        if (!(parts >> k & 1) || !(roles & part_bit(body, k))) continue;
-        double distance = body_frame_unpressed(body, k, p, far);
-        if (distance >= far) continue;
-        near.distance = fmin(near.distance, distance);
-        near.parts |= 1u << k;
+/* Asks one part about those of a block's vertices in `wanted` whose places keep out of it. */
+static void ask(Near *near, const BodyFrame *body, int part, const Sheet *sheet, const Vec3 *point, const int *wanted,
+                int n, double far) {
+    const Lattice *l = sheet->lattice;
+    int vertex[BLOCK], count = 0;
+    Vec3 at[BLOCK];
+    double distance[BLOCK];
+    for (int k = 0; k < n; k++) {
+        int v = wanted[k], place = sheet->place[v];
+        if (!((l->collide[place] | l->outside[place]) & part_bit(body, part))) continue;
+        if (body_frame_far(body, part, point[v], far)) continue;
+        at[count] = point[v];
+        vertex[count++] = v;
     }
-    return near;
+    if (count == 0) return;
+    body_frame_unpressed_many(body, part, at, count, far, distance);
+    for (int k = 0; k < count; k++) {
+        Near *of = &near[vertex[k]];
+        if (distance[k] >= far) continue;
+        of->parts |= 1u << part;
+        of->distance[part] = (float)distance[k];
+        of->least = fminf(of->least, of->distance[part]);
+    }
 }
 
 void near_find(Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3 *point, double far, bool known) {
-    const Lattice *l = sheet->lattice;
     for (int first = 0; first < sheet->nvertices; first += BLOCK) {
-        int n = sheet->nvertices - first < BLOCK ? sheet->nvertices - first : BLOCK;
-        unsigned parts = parts_round(body, point + first, n, far);
-        for (int v = first; v < first + n; v++) {
-            int place = sheet->place[v];
+        int wanted[BLOCK], n = 0;
+        int end = first + BLOCK < sheet->nvertices ? first + BLOCK : sheet->nvertices;
+        for (int v = first; v < end; v++) {
             if (known && vec_dist(point[v], near[v].seen) == 0) continue;
-            near[v] = ask(body, parts, l->collide[place] | l->outside[place], point[v], far);
+            near[v].seen = point[v];
+            near[v].parts = 0;
+            near[v].least = (float)far;
+            wanted[n++] = v;
         }
+        if (n == 0) continue;
+        unsigned parts = parts_round(body, point + first, end - first, far);
+        for (int part = 0; parts >> part; part++)
+            if (parts >> part & 1) ask(near, body, part, sheet, point, wanted, n, far);
     }
 }
 
-bool near_none(const Near *near, Vec3 p, double clearance) {
-    double room = NEAR_LIPSCHITZ * (near->distance - clearance);
-    return room > 0 && vec_dist(p, near->seen) < room;
+void near_sum(Near *near, double far) {
+    near->least = (float)far;
+    for (int part = 0; near->parts >> part; part++)
+        if (near->parts >> part & 1) near->least = fminf(near->least, near->distance[part]);
+}
+
+void near_keep(Near *near, const BodyFrame *body, unsigned roles) {
+    for (int part = 0; near->parts >> part; part++)
+        if (!(roles & part_bit(body, part))) near->parts &= ~(1u << part);
+}
+
+double near_slack(double distance, double clearance) { return LIPSCHITZ * (distance - clearance); }
+
+void near_move(Near *near, Vec3 p) {
+    float gone = (float)(vec_dist(p, near->seen) / LIPSCHITZ);
+    for (int part = 0; near->parts >> part; part++)
+        if (near->parts >> part & 1) near->distance[part] -= gone;
+    near->least -= gone;
+    near->seen = p;
 }

@@ -98,14 +98,6 @@ static unsigned parts_near(const BodyFrame *body, unsigned parts, Vec3 x, double
     return near;
 }
 
-/* Those of `parts` (bits 1 << part) that have one of the roles (bits 1 << role). */
-static unsigned of_roles(const BodyFrame *body, unsigned parts, unsigned roles) {
-    unsigned found = 0;
-    for (int k = 0; parts >> k; k++)
-        if (parts >> k & 1 && roles & part_bit(body, k)) found |= 1u << k;
-    return found;
-}
-
 /* Parts that move the surface at a place: those that it is worn over, and those that the garment is worn
    over elsewhere, as the other leg is for one of trousers. */
 static unsigned movers(const Push *p, int place) {
@@ -136,13 +128,6 @@ static void weigh(const Push *p, const Sheet *sheet, PushSample *s) {
     }
 }
 
-static void add_sample(Push *p, int vertex, unsigned near) {
-    const Near *seen = &p->near[vertex];
-    double slack = NEAR_LIPSCHITZ * (seen->distance - (1 - p->slack) * p->clearance[vertex]);
-    p->sample[p->nsamples++] =
-        (PushSample){.vertex = vertex, .n = -1, .near = near, .budget = -1, .seen = seen->seen, .slack = slack};
-}
-
 static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
     double far = (PUSH_MARGIN + REACH) * p->field.scale;
     p->nsamples = 0;
@@ -152,8 +137,11 @@ static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
     near_find(p->near, body, sheet, p->point, far, p->near_known);
     p->near_known = true;
     for (int v = 0; v < sheet->nvertices; v++) {
-        unsigned near = of_roles(body, p->near[v].parts, movers(p, sheet->place[v]));
-        if (near) add_sample(p, v, near);
+        PushSample *s = &p->sample[p->nsamples];
+        *s = (PushSample){.vertex = v, .n = -1, .near = p->near[v], .budget = -1};
+        near_keep(&s->near, body, movers(p, sheet->place[v]));
+        near_sum(&s->near, far);
+        if (s->near.parts) p->nsamples++;
     }
 }
 
@@ -255,41 +243,47 @@ static double way_asked(const Push *p, const BodyFrame *body, int place, unsigne
     return wanted - distance <= p->slack * clearance ? 0 : way_out(p, body, place, part, x, wanted, distance, n);
 }
 
-/* Pushes one sample out of the parts it is too near to. Distances change no faster than the
-   point moves, so a sample that has been found clear is left alone until it has used up its
-   slack; first the way that what moves it has gone is held against that, then its own. Returns the
-   depth of the worst violation that was acted on. */
-static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, PushSample *s, PushResult *result) {
-    if (s->budget >= 0 && is_pinched(p, s)) return 0; /* it has had its say */
-    if (s->slack > 0 && !p->any_travel) return 0;
+/* May a sample have come too near to any part since they were last asked? First the way that what moves it
+   has gone is held against its slack, then its own. If so it is placed. */
+static bool needs_asking(Push *p, const Sheet *sheet, PushSample *s, double enough) {
+    double slack = near_slack(s->near.least, enough);
+    if (slack > 0 && !p->any_travel) return false;
     if (s->n < 0) weigh(p, sheet, s);
     double way = travelled(p, s);
-    if (s->slack > way - s->travelled) return 0;
-    double clearance = p->clearance[s->vertex], most = 0, slack = INFINITY;
-    int place = sheet->place[s->vertex];
+    if (slack > way - s->travelled) return false;
     Vec3 x = sample_point(p, sheet, s);
-    double gone = vec_dist(x, s->seen);
-    if (s->slack > gone) {
-        s->travelled = way - gone;
-        return 0;
-    }
-    s->seen = x;
+    double gone = vec_dist(x, s->near.seen);
     s->travelled = way;
-    for (int part = 0; s->near >> part; part++) {
-        if (!(s->near >> part & 1)) continue;
-        Vec3 n;
-        double distance = body_frame_distance(body, part, x, clearance + REACH * p->field.scale, &n);
-        slack = fmin(slack, SLACK * clearance - (clearance - distance)); /* of the sweeps to come */
-        double depth = way_asked(p, body, place, s->near, part, x, clearance, distance, &n);
+    if (slack > gone) s->travelled -= gone;
+    else near_move(&s->near, x);
+    return slack <= gone;
+}
+
+/* Pushes one sample out of the parts it is too near to. Parts that have been found clear are left alone until the
+   sample has used up its slack, but for those that give way: in a fold that may change at once. Returns the depth
+   of the worst violation that was acted on. */
+static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, PushSample *s, PushResult *result) {
+    if (s->budget >= 0 && is_pinched(p, s)) return 0; /* it has had its say */
+    double clearance = p->clearance[s->vertex], enough = (1 - p->slack) * clearance, most = 0;
+    double far = clearance + REACH * p->field.scale;
+    int place = sheet->place[s->vertex];
+    if (!needs_asking(p, sheet, s, enough)) return 0;
+    for (int part = 0; s->near.parts >> part; part++) {
+        bool clear = body->contacts[part].n == 0 && near_slack(s->near.distance[part], enough) > 0;
+        if (!(s->near.parts >> part & 1) || clear) continue;
+        Vec3 n, x = s->near.seen;
+        double distance = body_frame_distance(body, part, x, far, &n);
+        double depth = way_asked(p, body, place, s->near.parts, part, x, clearance, distance, &n);
+        s->near.distance[part] = (float)distance;
         if (depth <= 0) continue;
         if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->field.scale;
         s->spent += depth;
         s->net = vec_mad(s->net, n, depth);
         project(p, s, n, depth, result);
-        x = sample_point(p, sheet, s);
+        near_move(&s->near, sample_point(p, sheet, s));
         most = fmax(most, depth);
     }
-    s->slack = NEAR_LIPSCHITZ * slack;
+    near_sum(&s->near, far);
     return most;
 }
 
@@ -325,7 +319,7 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
     int place = sheet->place[vertex];
     double clearance = p->clearance[vertex];
     Vec3 *o = &p->field.offset[place], *x = &p->point[vertex];
-    if (near_none(&p->near[vertex], *x, clearance)) return;
+    if (near_slack(p->near[vertex].least, clearance) > vec_dist(*x, p->near[vertex].seen)) return;
     unsigned near = parts_near(body, parts_at(p, place), *x, clearance), worn = p->lattice->collide[place];
     for (int step = 0; step < SETTLES_MAX && near; step++) {
         bool moved = false;

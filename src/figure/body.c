@@ -15,9 +15,6 @@ static const double CAP_SIZE[CAP_SECTIONS] = {0.81915204428899180, 0.42261826174
    of monotony. */
 static const double TIP_STEEPNESS = 2.2;
 
-/* The poles have no size, so the distance is taken this far (metres) inside of them. */
-static const double POLE = 1e-6;
-
 static void values_of(const Section *s, double v[SHAPE_VALUES]) {
     v[0] = s->x;
     v[1] = s->z;
@@ -106,25 +103,9 @@ void body_part_close(BodyPart *part, const double cap[2]) {
     }
 }
 
-/* The interval that holds y, low <= y <= high: a table look-up and rarely a step or two. */
-static int interval_of(const BodyPart *part, double y) {
-    int b = (int)((y - part->low) * part->buckets_per_metre);
-    int i = part->bucket[b < BODY_BUCKETS ? b : BODY_BUCKETS - 1];
-    while (i + 2 < part->nsections && part->section[i + 1].at <= y) i++;
-    return i;
-}
-
-/* The five values, */
-static void values_at(const BodyPart *part, double y, double v[SHAPE_VALUES]) {
-    int i = interval_of(part, y);
-    double t = y - part->section[i].at;
-    const double (*c)[SHAPE_VALUES] = part->cubic[i];
-    for (int k = 0; k < SHAPE_VALUES; k++) v[k] = c[0][k] + t * (c[1][k] + t * (c[2][k] + t * c[3][k]));
-}
-
-/* and with their slopes. */
+/* The five values and their slopes. */
 static void shape_at(const BodyPart *part, double y, double v[SHAPE_VALUES], double d[SHAPE_VALUES]) {
-    int i = interval_of(part, y);
+    int i = body_interval(part, y);
     double t = y - part->section[i].at;
     const double (*c)[SHAPE_VALUES] = part->cubic[i];
     for (int k = 0; k < SHAPE_VALUES; k++) {
@@ -152,7 +133,7 @@ Section body_section(const BodyPart *part, double at) {
    how far p stands before the tangent plane there, and the plane's unit normal. For p == at
    the sign is that of f - 1, so it is exact. */
 static double before_plane(const BodyPart *part, Vec3 at, Vec3 p, Vec3 *normal) {
-    double v[SHAPE_VALUES], d[SHAPE_VALUES], y = clamp(at.y, part->low + POLE, part->high - POLE);
+    double v[SHAPE_VALUES], d[SHAPE_VALUES], y = clamp(at.y, part->low + BODY_POLE, part->high - BODY_POLE);
     shape_at(part, y, v, d);
     double dx = at.x - v[0], dz = at.z - v[1];
     int depth = dz >= 0 ? 3 : 4;
@@ -174,32 +155,19 @@ static double before_plane(const BodyPart *part, Vec3 at, Vec3 p, Vec3 *normal) 
     return vec_dot(vec_sub(p, surface), *normal);
 }
 
-/* Is p, at a height that the part has, outside or on it? The sign of f - 1 as in before_plane, without roots
-   or divisions. */
-static bool is_outside(const BodyPart *part, Vec3 p) {
-    double v[SHAPE_VALUES];
-    values_at(part, clamp(p.y, part->low + POLE, part->high - POLE), v);
-    double dx = p.x - v[0], dz = p.z - v[1], depth = v[dz >= 0 ? 3 : 4], x = dx * depth, z = dz * v[2], one = v[2] * depth;
-    return x * x + z * z >= one * one;
-}
-
 /* Where the surface leans (caps, calf, seat) the nearest point is not at the same height: a
    second plane is taken under the first one's foot. For a convex part both planes bound the
    distance from below. */
-static const double LEANING = 0.2;
-
 double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal) {
     double beyond = fmax(p.y - part->high, part->low - p.y);
     if (beyond >= far) return beyond;
     double away = p.x * p.x + p.z * p.z, limit = part->reach + far;
     if (away >= limit * limit) return fmax(far, sqrt(away) - part->reach);
 
-    if (far <= 0 && is_outside(part, p)) return far;
-
     Vec3 n, n2;
     double distance = before_plane(part, p, p, &n);
     if (distance >= far) return far;
-    if (fabs(n.y) > LEANING) {
+    if (fabs(n.y) > BODY_LEANING) {
         double better = before_plane(part, vec_mad(p, n, -distance), p, &n2);
         if ((better > 0) == (distance > 0)) {
             distance = better;

@@ -1,0 +1,152 @@
+/* body_distance for many points: sixteen stand side by side and every step is a loop over them without a branch,
+   so that the compiler makes vectors of it, as wide as the processor has them. Every sum and root is taken in the
+   order of body_distance: which of the two was asked changes no bit. */
+#include "figure/body.h"
+
+enum { LANES = 16 };
+
+typedef struct { double x[LANES], y[LANES], z[LANES]; } Lanes;
+
+#define ALWAYS static inline __attribute__((always_inline))
+
+/* From the world to the part's frame; lanes beyond the n-th repeat the last point. */
+ALWAYS void bring(const Rigid *to_part, const Vec3 *p, int n, Lanes *out) {
+    Lanes in;
+    for (int i = 0; i < LANES; i++) {
+        Vec3 q = p[i < n ? i : n - 1];
+        in.x[i] = q.x;
+        in.y[i] = q.y;
+        in.z[i] = q.z;
+    }
+    Mat3 m = to_part->r;
+    Vec3 t = to_part->t;
+    for (int i = 0; i < LANES; i++) {
+        out->x[i] = m.r[0].x * in.x[i] + m.r[0].y * in.y[i] + m.r[0].z * in.z[i] + t.x;
+        out->y[i] = m.r[1].x * in.x[i] + m.r[1].y * in.y[i] + m.r[1].z * in.z[i] + t.y;
+        out->z[i] = m.r[2].x * in.x[i] + m.r[2].y * in.y[i] + m.r[2].z * in.z[i] + t.z;
+    }
+}
+
+/* Lanes that body_distance does not give up at once. */
+ALWAYS int find_near(const BodyPart *part, const Lanes *p, double far, int near[LANES]) {
+    double limit = part->reach + far;
+    int any = 0;
+    for (int i = 0; i < LANES; i++) {
+        double over = p->y[i] - part->high, under = part->low - p->y[i], beyond = over > under ? over : under;
+        double away = p->x[i] * p->x[i] + p->z[i] * p->z[i];
+        near[i] = (beyond < far) & (away < limit * limit);
+        any |= near[i];
+    }
+    return any;
+}
+
+/* The five values at heights y, and their slopes. Points that stand together lie in few intervals between sections:
+   each of these is evaluated for all, and kept by those that reach it. */
+ALWAYS void shapes_at(const BodyPart *part, const double y[LANES], double v[SHAPE_VALUES][LANES],
+                      double d[SHAPE_VALUES][LANES]) {
+    double least = y[0], most = y[0];
+    for (int i = 1; i < LANES; i++) {
+        least = y[i] < least ? y[i] : least;
+        most = y[i] > most ? y[i] : most;
+    }
+    int first = body_interval(part, least), last = body_interval(part, most);
+    for (int s = first; s <= last; s++) {
+        double at = part->section[s].at, from = s == first ? -INFINITY : at;
+        for (int k = 0; k < SHAPE_VALUES; k++) {
+            double c0 = part->cubic[s][0][k], c1 = part->cubic[s][1][k], c2 = part->cubic[s][2][k];
+            double c3 = part->cubic[s][3][k];
+            for (int i = 0; i < LANES; i++) {
+                double t = y[i] - at, value = c0 + t * (c1 + t * (c2 + t * c3));
+                double slope = c1 + t * (2 * c2 + t * 3 * c3), old = v[k][i], old_slope = d[k][i];
+                v[k][i] = y[i] >= from ? value : old;
+                d[k][i] = y[i] >= from ? slope : old_slope;
+            }
+        }
+    }
+}
+
+/* before_plane of body.c for every lane. */
+ALWAYS void before_planes(const BodyPart *part, const Lanes *at, const Lanes *p, double distance[LANES], Lanes *n) {
+    Lanes s;
+    double v[SHAPE_VALUES][LANES] = {{0}}, d[SHAPE_VALUES][LANES] = {{0}};
+    double low = part->low + BODY_POLE, high = part->high - BODY_POLE;
+    for (int i = 0; i < LANES; i++) {
+        double y = at->y[i] < low ? low : at->y[i];
+        s.y[i] = y > high ? high : y;
+    }
+    shapes_at(part, s.y, v, d);
+    for (int i = 0; i < LANES; i++) {
+        double dx = at->x[i] - v[0][i], dz = at->z[i] - v[1][i];
+        double front = v[3][i], back = v[4][i], front_slope = d[3][i], back_slope = d[4][i];
+        double side = v[2][i], depth = dz >= 0 ? front : back, slope = dz >= 0 ? front_slope : back_slope;
+        double per_x = 1 / side, per_z = 1 / depth, ux = dx * per_x, uz = dz * per_z, f = sqrt(ux * ux + uz * uz);
+        double per_f = 1 / (f > 1e-9 ? f : 1), x = ux * per_f, z = uz * per_f;
+        double flat = side <= depth ? 1 : 0; /* on the axis the way out is along the shorter half axis */
+        ux = f > 1e-9 ? x : flat;
+        uz = f > 1e-9 ? z : 1 - flat;
+        double gx = ux * per_x, gz = uz * per_z;
+        double gy = -(gx * (d[0][i] + ux * d[2][i]) + gz * (d[1][i] + uz * slope));
+        double size = 1 / sqrt(gx * gx + gy * gy + gz * gz);
+        n->x[i] = gx * size;
+        n->y[i] = gy * size;
+        n->z[i] = gz * size;
+        s.x[i] = v[0][i] + ux * side;
+        s.z[i] = v[1][i] + uz * depth;
+        distance[i] = (p->x[i] - s.x[i]) * n->x[i] + (p->y[i] - s.y[i]) * n->y[i] + (p->z[i] - s.z[i]) * n->z[i];
+    }
+}
+
+/* body_distance for the first n lanes. */
+ALWAYS void sixteen(const BodyPart *part, const Rigid *to_part, const Vec3 *points, int n, double far, double *out) {
+    Lanes p, normal, foot, unused;
+    int near[LANES], leans = 0;
+    double distance[LANES], better[LANES];
+    bring(to_part, points, n, &p);
+    if (!find_near(part, &p, far, near)) {
+        for (int i = 0; i < n; i++) out[i] = far;
+        return;
+    }
+    before_planes(part, &p, &p, distance, &normal);
+    for (int i = 0; i < LANES; i++) leans |= near[i] & (distance[i] < far) & (fabs(normal.y[i]) > BODY_LEANING);
+    if (leans) {
+        for (int i = 0; i < LANES; i++) {
+            foot.x[i] = p.x[i] + normal.x[i] * -distance[i];
+            foot.y[i] = p.y[i] + normal.y[i] * -distance[i];
+            foot.z[i] = p.z[i] + normal.z[i] * -distance[i];
+        }
+        before_planes(part, &foot, &p, better, &unused);
+        for (int i = 0; i < LANES; i++) {
+            bool counts = (distance[i] < far) & (fabs(normal.y[i]) > BODY_LEANING);
+            distance[i] = counts & ((better[i] > 0) == (distance[i] > 0)) ? better[i] : distance[i];
+        }
+    }
+    for (int i = 0; i < n; i++) out[i] = near[i] & (distance[i] < far) ? distance[i] : far;
+}
+
+ALWAYS void all(const BodyPart *part, const Rigid *to_part, const Vec3 *p, int n, double far, double *out) {
+    for (int i = 0; i < n; i += LANES)
+        sixteen(part, to_part, p + i, n - i < LANES ? n - i : LANES, far, out + i);
+}
+
+#ifdef VECTORS_ARE_X86
+FOR_AVX2 static void all_avx2(const BodyPart *part, const Rigid *to_part, const Vec3 *p, int n, double far,
+                              double *out) {
+    all(part, to_part, p, n, far, out);
+}
+
+FOR_AVX512 static void all_avx512(const BodyPart *part, const Rigid *to_part, const Vec3 *p, int n, double far,
+                                  double *out) {
+    all(part, to_part, p, n, far, out);
+}
+#endif
+
+void body_distances(const BodyPart *part, Vectors vectors, const Rigid *to_part, const Vec3 *p, int n, double far,
+                    double *out) {
+#ifdef VECTORS_ARE_X86
+    vectors = vectors_pick(vectors);
+    if (vectors == VECTORS_AVX512) all_avx512(part, to_part, p, n, far, out);
+    else if (vectors == VECTORS_AVX2) all_avx2(part, to_part, p, n, far, out);
+    else
+#endif
+        all(part, to_part, p, n, far, out);
+}
