@@ -36,8 +36,9 @@ double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec
 double body_frame_unpressed(const BodyFrame *f, int part, Vec3 p, double far);
 void body_frame_unpressed_many(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance);
 
-/* Is a world point inside any of `parts` (bits 1 << role)? */
+/* Is a world point, or any of n, inside any of `parts` (bits 1 << role)? */
 bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p);
+bool body_frame_any_inside(const BodyFrame *f, unsigned parts, const Vec3 *p, int n);
 
 /* Is p farther than `far` from a part for certain? A cheap question before the exact one. */
 static inline bool body_frame_far(const BodyFrame *f, int part, Vec3 p, double far) {

@@ -9,7 +9,8 @@
    way is no nearer. */
 typedef struct {
     Vec3 seen;                      /* the point that all this holds for */
-    unsigned parts;                 /* bits 1 << part */
+    unsigned roles;                 /* asked about: bits 1 << role */
+    unsigned parts;                 /* near: bits 1 << part */
     float least;                    /* their least distance; what it was asked for where there is none */
     float distance[BODY_PARTS_MAX]; /* of those in `parts` */
 } Near;
@@ -20,6 +21,10 @@ void near_find(Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3
 
 /* Leaves only the parts that have one of the roles (bits 1 << role). */
 void near_keep(Near *near, const BodyFrame *body, unsigned roles);
+
+/* The roles of near->roles whose parts do not hold p for certain. A guess would not do: distances are never more than
+   half too long (tests/unit_body.c), and only a half of them is trusted. */
+unsigned near_clear(const Near *near, Vec3 p);
 
 /* How far the point may go before a part at `distance` can be nearer than `clearance`. */
 double near_slack(double distance, double clearance);

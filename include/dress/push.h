@@ -69,6 +69,9 @@ void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult 
 /* Fills what the solution amounts to: active, pinched, displacement. */
 void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
 
+/* Per mesh vertex the parts (bits 1 << role) that it is known to be outside of. */
+void push_clear(const Push *p, const Sheet *sheet, unsigned *clear);
+
 /* Keeps a solution of that many vertices, to take it back, with the sheet that it was made for, after
    another attempt. */
 void push_keep(Push *p, int nvertices);

@@ -35,8 +35,9 @@ void tester_build(Tester *t, const Vec3 *position, const Edge *edge, int nedges,
 void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other,
                   CrossingCount *count);
 
-/* Counts the vertices inside any part, and appends them to t->bad. */
-void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, Residual *own,
-                   Residual *other);
+/* Counts the vertices inside any part, and appends them to t->bad. clear, if not NULL: per vertex the parts (bits
+   1 << role) that it is known to be outside of. */
+void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, const unsigned *clear,
+                   Residual *own, Residual *other);
 
 #endif

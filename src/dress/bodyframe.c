@@ -83,6 +83,30 @@ bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p) {
     return false;
 }
 
+/* Those of n <= 16 points that are inside of a part where nothing presses on it are asked again one by one. */
+static bool any_inside_part(const BodyFrame *f, int part, const Vec3 *p, int n) {
+    Vec3 at[16];
+    double distance[16];
+    int count = 0;
+    for (int i = 0; i < n; i++)
+        if (!body_frame_far(f, part, p[i], 0)) at[count++] = p[i];
+    if (count > 0) body_frame_unpressed_many(f, part, at, count, 0, distance);
+    for (int i = 0; i < count; i++)
+        if (distance[i] < 0 && body_frame_distance(f, part, at[i], 0, NULL) < 0) return true;
+    return false;
+}
+
+bool body_frame_any_inside(const BodyFrame *f, unsigned parts, const Vec3 *p, int n) {
+    Box box = box_empty();
+    for (int i = 0; i < n; i++) box_add(&box, p[i]);
+    for (int k = 0; k < f->body->nparts; k++) {
+        if (!(parts & part_bit(f, k)) || !box_touches(box, f->box[k])) continue;
+        for (int i = 0; i < n; i += 16)
+            if (any_inside_part(f, k, p + i, n - i < 16 ? n - i : 16)) return true;
+    }
+    return false;
+}
+
 /* Do the two come nearer than the room for cloth? Asked of the vertices of the first. */
 static bool is_near(const BodyFrame *f, int a, int b) {
     const BodyPart *part = &f->body->part[a];

@@ -43,6 +43,7 @@ struct Dresser {
     Literal literal;
     Normals normals;
     Vec3 *position, *normal; /* of the written mesh */
+    unsigned *clear;         /* per vertex: parts (bits 1 << role) that it is outside of for certain */
     double *u, *w;
     MeshGroup *group;
     int ngroups, *group_of; /* of every patch */
@@ -86,10 +87,11 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
     int triangles = 2 * d->fit.npatches * d->lattice.side * d->lattice.side, places = d->lattice.nplaces;
     d->root = ARENA_NEW(arena, Patch, d->fit.npatches, e);
     d->position = ARENA_NEW(arena, Vec3, places, e);
+    d->clear = ARENA_NEW(arena, unsigned, places, e);
     d->normal = ARENA_NEW(arena, Vec3, places, e);
     d->u = ARENA_NEW(arena, double, places, e);
     d->w = ARENA_NEW(arena, double, places, e);
-    if (!d->root || !d->position || !d->normal || !d->u || !d->w) return false;
+    if (!d->root || !d->position || !d->clear || !d->normal || !d->u || !d->w) return false;
     if (!tester_reserve(&d->tester, 3 * triangles, triangles, arena, e)) return false;
     leaves_fill(&d->grid, depth);
     Pose rest = figure_rest_pose();
@@ -117,16 +119,18 @@ typedef struct {
 } Wrong;
 
 /* What d->tester holds, against all that the garment keeps out of. */
-static Wrong test_built(Dresser *d, const BodyFrame *body, const Vec3 *position, int nvertices, CrossingCount *count) {
+static Wrong test_built(Dresser *d, const BodyFrame *body, const Vec3 *position, int nvertices, const unsigned *clear,
+                        CrossingCount *count) {
     Wrong w = {0};
     tester_cross(&d->tester, body, d->fit.collide | d->fit.outside, &w.own, &w.other, count);
-    tester_inside(&d->tester, body, position, nvertices, &w.own, &w.other);
+    tester_inside(&d->tester, body, position, nvertices, clear, &w.own, &w.other);
     return w;
 }
 
 static Wrong test_mesh(Dresser *d, const BodyFrame *body, CrossingCount *count) {
     snap_points(d, body->unit);
-    return test_built(d, body, d->position, d->sheet.nvertices, count);
+    push_clear(&d->push, &d->sheet, d->clear);
+    return test_built(d, body, d->position, d->sheet.nvertices, d->clear, count);
 }
 
 static int total(const Residual *r) { return r->edges + r->cloth + r->inside; }
@@ -318,7 +322,7 @@ static void frame_to_the_letter(Dresser *d, const BodyFrame *body, bool restart,
     double start = clock_seconds();
     tester_build(&d->tester, mesh->position, mesh->edge, mesh->nedges, mesh->triangle, mesh->ntriangles,
                  d->fit.collide);
-    Wrong w = test_built(d, body, mesh->position, mesh->nvertices, &count);
+    Wrong w = test_built(d, body, mesh->position, mesh->nvertices, NULL, &count);
     stats->test_s += clock_seconds() - start;
     final_test(d, body, &w, stats, &count);
     stats->pairs_all += count.pairs_all;

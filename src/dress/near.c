@@ -19,16 +19,14 @@ static unsigned parts_round(const BodyFrame *body, const Vec3 *point, int n, dou
     return parts;
 }
 
-/* Asks one part about those of a block's vertices in `wanted` whose places keep out of it. */
-static void ask(Near *near, const BodyFrame *body, int part, const Sheet *sheet, const Vec3 *point, const int *wanted,
-                int n, double far) {
-    const Lattice *l = sheet->lattice;
+/* Asks one part about those of a block's vertices in `wanted` that are asked about its role. */
+static void ask(Near *near, const BodyFrame *body, int part, const Vec3 *point, const int *wanted, int n, double far) {
     int vertex[BLOCK], count = 0;
     Vec3 at[BLOCK];
     double distance[BLOCK];
     for (int k = 0; k < n; k++) {
-        int v = wanted[k], place = sheet->place[v];
-        if (!((l->collide[place] | l->outside[place]) & part_bit(body, part))) continue;
+        int v = wanted[k];
+        if (!(near[v].roles & part_bit(body, part))) continue;
         if (body_frame_far(body, part, point[v], far)) continue;
         at[count] = point[v];
         vertex[count++] = v;
@@ -45,12 +43,14 @@ static void ask(Near *near, const BodyFrame *body, int part, const Sheet *sheet,
 }
 
 void near_find(Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3 *point, double far, bool known) {
+    const Lattice *l = sheet->lattice;
     for (int first = 0; first < sheet->nvertices; first += BLOCK) {
         int wanted[BLOCK], n = 0;
         int end = first + BLOCK < sheet->nvertices ? first + BLOCK : sheet->nvertices;
         for (int v = first; v < end; v++) {
             if (known && vec_dist(point[v], near[v].seen) == 0) continue;
             near[v].seen = point[v];
+            near[v].roles = l->collide[sheet->place[v]] | l->outside[sheet->place[v]];
             near[v].parts = 0;
             near[v].least = (float)far;
             wanted[n++] = v;
@@ -58,7 +58,7 @@ void near_find(Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3
         if (n == 0) continue;
         unsigned parts = parts_round(body, point + first, end - first, far);
         for (int part = 0; parts >> part; part++)
-            if (parts >> part & 1) ask(near, body, part, sheet, point, wanted, n, far);
+            if (parts >> part & 1) ask(near, body, part, point, wanted, n, far);
     }
 }
 
@@ -71,6 +71,10 @@ void near_sum(Near *near, double far) {
 void near_keep(Near *near, const BodyFrame *body, unsigned roles) {
     for (int part = 0; near->parts >> part; part++)
         if (!(roles & part_bit(body, part))) near->parts &= ~(1u << part);
+}
+
+unsigned near_clear(const Near *near, Vec3 p) {
+    return vec_dist(p, near->seen) < 0.5 * near->least ? near->roles : 0;
 }
 
 double near_slack(double distance, double clearance) { return LIPSCHITZ * (distance - clearance); }

@@ -377,6 +377,10 @@ void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult 
     for (int k = 0; k < p->nraised; k++) settle_vertex(p, body, sheet, p->raised[k], &result->capped);
 }
 
+void push_clear(const Push *p, const Sheet *sheet, unsigned *clear) {
+    for (int v = 0; v < sheet->nvertices; v++) clear[v] = p->near_known ? near_clear(&p->near[v], p->point[v]) : 0;
+}
+
 void push_keep(Push *p, int nvertices) {
     p->nkept = nvertices;
     field_copy(&p->field, &p->kept);
@@ -384,6 +388,7 @@ void push_keep(Push *p, int nvertices) {
 }
 
 void push_back(Push *p) {
+    p->near_known = false;
     field_copy(&p->kept, &p->field);
     memcpy(p->point, p->kept_point, (size_t)p->nkept * sizeof *p->point);
 }

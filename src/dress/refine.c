@@ -81,12 +81,6 @@ void facets_of_cell(int n, int first, Triangle *out) {
         }
 }
 
-static bool any_inside(const BodyFrame *body, unsigned parts, const Vec3 *points, int n) {
-    for (int v = 0; v < n; v++)
-        if (body_frame_inside(body, parts, points[v])) return true;
-    return false;
-}
-
 /* Tests `ncells` cells of one level: fills c->hit. */
 static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, int level, int ncells,
                        Classification *out) {
@@ -96,7 +90,7 @@ static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, 
         unsigned parts = l->fit->patch[c->cell[k].patch].collide;
         cell_points(c, &root[c->cell[k].patch], c->cell[k], level, c->position + k * npoints);
         facets_of_cell(n, k * npoints, c->triangle + k * ntriangles);
-        c->hit[k] = any_inside(body, parts, c->position + k * npoints, npoints);
+        c->hit[k] = body_frame_any_inside(body, parts, c->position + k * npoints, npoints);
     }
     if (body->unit != 1)
         for (int v = 0; v < ncells * npoints; v++) c->position[v] = vec_scale(c->position[v], body->unit);
