@@ -257,6 +257,10 @@ static void test_oddities(void) {
            strcmp(rig_joint(&r, ROLE_RIGHT_HAND), "LeftHand") == 0 && r.notes.count == 1,
        "left and right go by feet and knees where names say the opposite, with a note");
     rig_close(&r);
+    OK(rig_roles(&r, "tests/data/figure/outward.bvh", NULL) &&
+           strcmp(rig_joint(&r, ROLE_LEFT_THIGH), "LeftUpLeg") == 0 && r.notes.count == 0,
+       "but not by feet that point outwards and knees that bend a little backwards");
+    rig_close(&r);
     OK(rig_roles(&r, "tests/data/figure/nameless_split.bvh", NULL) &&
            strcmp(rig_joint(&r, ROLE_LEFT_FOREARM), "j29") == 0 &&
            strcmp(rig_joint(&r, ROLE_LEFT_HAND), "j31") == 0 && strcmp(rig_joint(&r, ROLE_RIGHT_SHIN), "j8") == 0,

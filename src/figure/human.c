@@ -94,16 +94,20 @@ static bool human_score(const Tree *t, const LimbPair *legs, const LimbPair *arm
 
 /* ---- left and right ---- */
 
-/* Where feet and knees point, summed over the legs of one frame; about a foot's length long. */
-static Vec3 forward(const Tree *t, int frame, const LimbPair *legs, const int tip[2]) {
+/* Where feet and knees point, summed over the legs of one frame; *size: how long it would be if all agreed, about
+   two feet's lengths. */
+static Vec3 forward(const Tree *t, int frame, const LimbPair *legs, const int tip[2], double *size) {
     Vec3 sum = {0, 0, 0};
+    *size = 0;
     for (int i = 0; i < 2; i++) {
         const Limb *l = &legs->limb[i];
         Vec3 hip = sample_point(t->sample, frame, l->joint[0]), knee = sample_point(t->sample, frame, l->joint[1]);
         Vec3 ankle = sample_point(t->sample, frame, l->joint[2]);
         Vec3 axis = vec_unit_or(vec_sub(ankle, hip), vec(0, 0, 0)), bend = vec_sub(knee, hip);
-        sum = vec_add(sum, vec_mad(bend, axis, -vec_dot(bend, axis)));
-        if (tip[i] >= 0) sum = vec_add(sum, vec_sub(sample_point(t->sample, frame, tip[i]), ankle));
+        bend = vec_mad(bend, axis, -vec_dot(bend, axis));
+        Vec3 foot = tip[i] >= 0 ? vec_sub(sample_point(t->sample, frame, tip[i]), ankle) : vec(0, 0, 0);
+        sum = vec_add(sum, vec_add(bend, foot));
+        *size += vec_len(bend) + vec_len(foot);
     }
     return sum;
 }
@@ -112,17 +116,17 @@ static Vec3 forward(const Tree *t, int frame, const LimbPair *legs, const int ti
    clearly: in one who sits with stretched legs the feet point along the torso and say little. */
 static double left_by_shape(const Tree *t, const LimbPair *legs, const LimbPair *arms) {
     int tip[2];
-    double votes = 0, size = 0;
+    double votes = 0, size = 0, agreed;
     for (int i = 0; i < 2; i++) {
         int end = legs->limb[i].joint[2];
         tip[i] = t->skeleton->joint[end].is_end ? -1 : sample_tip(t->sample, t->skeleton, end, legs->limb[i].length[1]);
     }
     for (int f = 0; f < t->sample->count; f++) {
-        Vec3 up = torso(t, f, legs, arms), front = forward(t, f, legs, tip), left = vec_cross(up, front);
+        Vec3 up = torso(t, f, legs, arms), left = vec_cross(up, forward(t, f, legs, tip, &agreed));
         Vec3 hips = vec_sub(sample_point(t->sample, f, legs->limb[0].joint[0]),
                             sample_point(t->sample, f, legs->limb[1].joint[0]));
         votes += vec_dot(left, hips);
-        size += vec_len(up) * vec_len(front) * vec_len(hips);
+        size += vec_len(up) * agreed * vec_len(hips);
     }
     return size > 0 ? votes / size : 0;
 }
@@ -140,7 +144,7 @@ static int left_leg(const Tree *t, const LimbPair *legs, const LimbPair *arms, N
         notes_add(notes, (Place){0}, "joint names do not tell left from right: taken from feet and knees");
         return shape >= 0 ? 1 : -1;
     }
-    if (named * shape < -0.6) {
+    if (named * shape < -0.5) {
         notes_add(notes, (Place){0}, "feet and knees point backwards: left and right are swapped against the names");
         return -named;
     }

@@ -48,7 +48,7 @@ static bool legs_are_human(const Skeleton *s, const Figure *f, Vec3 up) {
         Role foot = side ? ROLE_RIGHT_FOOT : ROLE_LEFT_FOOT;
         if (f->toward[foot] < 0) continue;
         double along = vec_dot(rest_bone(s, f, foot), rest_bone(s, f, foot - 1));
-        if (along > 0.9 || along < -0.5) return false;
+        if (along > 0.97 || along < -0.5) return false;
     }
     return true;
 }
