@@ -36,8 +36,12 @@ typedef struct {
     char up;       /* 'x', 'y', 'z', upper case for negative; 0: found from the motion */
 } FigureOptions;
 
-/* The reference adult that body and garment files are written for: 1.70 m. */
+/* The reference adult that body and garment files are written for; its stature, metres. */
+#define FIGURE_STATURE 1.70
 Figure figure_reference(void);
+
+/* Lengths that are told for the reference adult are multiplied by this for somebody of that stature. */
+static inline double figure_scale(double height) { return height / FIGURE_STATURE; }
 
 /* Builds the figure of a motion: unit, up axis, bone lengths and bind, from a sample of its
    frames. Oddities go to notes. */

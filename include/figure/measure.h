@@ -15,6 +15,6 @@ typedef struct { double hips, thigh, shin, ankle, torso, shoulders, upper_arm, f
 void figure_shape(double k, const Lengths *lengths, Figure *f);
 
 /* How far an ankle usually is over the ball of a flat foot, in statures. */
-#define FIGURE_FOOT_RISE (0.06 / 1.70)
+#define FIGURE_FOOT_RISE (0.06 / FIGURE_STATURE)
 
 #endif

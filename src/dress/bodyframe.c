@@ -39,7 +39,7 @@ static inline double own_distance(const BodyFrame *f, int part, Vec3 p, double f
     return body_frame_far(f, part, p, far) ? far : distance_in_box(f, part, p, far, normal);
 }
 
-static double scale_of(const BodyFrame *f) { return f->body->height / 1.70; }
+static double scale_of(const BodyFrame *f) { return figure_scale(f->body->height); }
 
 /* How far a part gives way at p, `distance` away from it: to the other that asks for most. Farther away
    than the room that parts leave to each other it is never asked. */

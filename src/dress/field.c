@@ -9,7 +9,7 @@ static const double FELT = 0.0002;                /* metres on 1.70 m: a carried
 static const double CAP_LOOSE = 7, CAP_TIGHT = 9; /* parts of the height */
 
 bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e) {
-    *f = (Field){.lattice = lattice, .scale = lattice->fit->height / 1.70, .pelvis = mat_identity()};
+    *f = (Field){.lattice = lattice, .scale = figure_scale(lattice->fit->height), .pelvis = mat_identity()};
     f->cap = lattice->fit->height / (lattice->fit->garment->loose ? CAP_LOOSE : CAP_TIGHT);
     for (int l = 0; l < LATTICE_LEVELS; l++)
         f->start[l + 1] = f->start[l] + (l <= lattice->depth ? lattice->level[l].count : 0);

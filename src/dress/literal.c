@@ -152,7 +152,7 @@ static void split_roots(Literal *l, const Patch *root, const BodyFrame *body, Sp
 static bool push_leaf(Literal *l, LiteralLeaf *leaf, const BodyFrame *body, FrameStats *stats) {
     double speed = vec_len(leaf->motion);
     if (!leaf->hits || speed < STILL) return false;
-    Vec3 step = vec_scale(leaf->motion, STEP * l->lattice->fit->height / 1.70 / speed);
+    Vec3 step = vec_scale(leaf->motion, STEP * figure_scale(l->lattice->fit->height) / speed);
     for (int k = 0; k < 16; k++) leaf->patch.p[k / 4][k % 4] = vec_add(leaf->patch.p[k / 4][k % 4], step);
     leaf->moved = vec_add(leaf->moved, step);
     test_leaf(l, leaf, body, stats);

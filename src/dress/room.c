@@ -17,20 +17,11 @@ static const double SAME = 1e-6;
    belongs to the sleeve and to the trunk, and lies on neither. */
 static const double TIGHT_MOST = 0.03;
 
-static bool is_arm(Role role) {
-    return (role >= ROLE_LEFT_UPPER_ARM && role <= ROLE_LEFT_HAND) ||
-           (role >= ROLE_RIGHT_UPPER_ARM && role <= ROLE_RIGHT_HAND);
-}
-
-static bool is_left(const BodyPart *part, Vec3 p) {
-    bool limb = part->role > ROLE_HEAD;
-    return limb ? is_arm(part->role) ? part->role <= ROLE_LEFT_HAND : part->role <= ROLE_LEFT_TOE : p.x > 0;
-}
-
 /* The way from a part of the trunk to the arm beside it, or from an arm to the trunk. */
 static Vec3 side_of(const BodyPart *part, Vec3 p) {
-    Vec3 along = mat_column(part->frame.r, 1);
-    Vec3 out = vec(is_left(part, p) != is_arm(part->role) ? 1 : -1, 0, 0);
+    int limb = role_limb(part->role);
+    bool is_arm = limb == 1 || limb == 2, is_left = limb == 0 ? p.x > 0 : limb % 2 == 1;
+    Vec3 along = mat_column(part->frame.r, 1), out = vec(is_left != is_arm ? 1 : -1, 0, 0);
     return vec_unit_or(vec_mad(out, along, -vec_dot(out, along)), out);
 }
 
@@ -66,7 +57,7 @@ bool room_add(const Garment *garment, const Figure *figure, const Body *body, Ar
     if (!patch) return false;
     follow_pose(&follower, &stance, patch);
     cloth->is_tube = cloth->is_tube || garment->follow == FOLLOW_ENVELOPE;
-    double most = garment->loose ? INFINITY : TIGHT_MOST * figure->height / 1.7;
+    double most = garment->loose ? INFINITY : TIGHT_MOST * figure_scale(figure->height);
     for (int p = 0; p < fit->npatches; p++)
         for (int k = 0; k <= SAMPLES * (SAMPLES + 2); k++) {
             double u = k % (SAMPLES + 1) / (double)SAMPLES, w = k / (SAMPLES + 1) / (double)SAMPLES;

@@ -9,7 +9,7 @@
 #include "figure/upright.h"
 
 /* The reference adult, metres. */
-static const double STATURE = 1.70, ABOVE_SHOULDERS = 0.315;
+static const double ABOVE_SHOULDERS = 0.315;
 static const double HIP_HEIGHT = 0.885, SHOULDER_HEIGHT = 1.385;
 static const double SOLE = 0.016; /* below toe joint or tip */
 static const Lengths adult = {0.176, 0.415, 0.39, 0.08, 0.50, 0.34, 0.28, 0.25, 0.18};
@@ -119,7 +119,7 @@ static double ankle_height(const Skeleton *skeleton, const Sample *s, const Rest
     }
     double leg = sample_distance(s, f->roles.joint[foot - 2], f->roles.joint[foot - 1]) +
                  sample_distance(s, f->roles.joint[foot - 1], ankle);
-    double rise = FIGURE_FOOT_RISE * STATURE / (adult.thigh + adult.shin) * leg;
+    double rise = FIGURE_FOOT_RISE * FIGURE_STATURE / (adult.thigh + adult.shin) * leg;
     int n = sample_standing(s, f->upright, ankle, tip, rise, frames);
     Vec3 up = mat_apply(mat_transpose(f->upright), vec(0, 1, 0));
     double sum = 0;
@@ -148,7 +148,7 @@ static const double ADULT_LEAST = 1.4, ADULT_MOST = 2.1, GIANT_MOST = 2.6;
 /* stature: in file units. An adult in any unit comes before a child or a giant in a common one, so
    a child of 0.55 to 0.82 m in centimetres is taken for an adult in inches: those are many more. */
 static void find_unit(double stature, double file_unit, Figure *f) {
-    f->unit = STATURE / stature;
+    f->unit = FIGURE_STATURE / stature;
     f->unit_name = "unknown";
     if (file_unit > 0 && stature * file_unit > 0.5 && stature * file_unit < 2.5) {
         f->unit = file_unit;
@@ -261,10 +261,11 @@ bool figure_measure(const Motion *m, const FigureOptions *options, const Sample 
     if (!(known > 1e-12 && known < 1e12)) return error_set(e, ERR_INPUT, "skeleton of no size in '%s'", m->path);
     /* How many times the reference adult, in file units. */
     double k = known / (adult.thigh + adult.shin + adult.torso);
-    find_unit(k * STATURE, m->file_unit, f);
+    find_unit(k * FIGURE_STATURE, m->file_unit, f);
     if (options->unit > 0) f->unit = options->unit, f->unit_name = "given";
     else if (f->unit_name[0] == 'u')
-        notes_add(notes, (Place){0}, "unit unknown: %.4g units tall, taken for %.2f m", k * STATURE, STATURE);
+        notes_add(notes, (Place){0}, "unit unknown: %.4g units tall, taken for %.2f m", k * FIGURE_STATURE,
+                  FIGURE_STATURE);
     if (options->scale > 0) f->unit *= options->scale;
 
     k *= f->unit;

@@ -133,7 +133,7 @@ static Slice slice_of(const Search *s, const BodyPart *part, double y) {
     Section c = body_section_at(part, y, NULL);
     Slice out = {rigid_apply(g, vec(c.x, y, c.z)), g.r, c, cloth_at(s->cloth, part, y, 0), 0};
     if (part->role == upper_arm(s->arm))
-        out.grace = (1 - smoothstep(ARMPIT_FROM, ARMPIT_TO, y / part->length)) * ARMPIT_DEPTH * s->figure->height / 1.7;
+        out.grace = (1 - smoothstep(ARMPIT_FROM, ARMPIT_TO, y / part->length)) * ARMPIT_DEPTH * figure_scale(s->figure->height);
     return out;
 }
 
@@ -170,7 +170,7 @@ typedef struct {
 static Gap gap_after(const Search *s, const Slice *slice, int trunk, Rigid turn) {
     const BodyPart *part = s->trunk[trunk];
     Vec3 centre = rigid_apply(turn, slice->centre), point = centre, local, normal;
-    double size = s->figure->height / 1.7, distance = 0, facing = 0;
+    double size = figure_scale(s->figure->height), distance = 0, facing = 0;
     for (int pass = 0; pass < 2; pass++) {
         local = rigid_apply(s->to_part[trunk], point);
         normal = vec(0, 0, 0);
