@@ -16,17 +16,19 @@ static size_t print_sheet(const Mesh *m, double unit, bool uv, bool normal, char
     for (int i = 0; i < m->nvertices; i++)
         fprintf(f, "v %.6f %.6f %.6f\n", m->position[i].x * unit, m->position[i].y * unit, m->position[i].z * unit);
     for (int i = 0; uv && i < m->nvertices; i++) fprintf(f, "vt %.6f %.6f\n", m->u[i], m->w[i]);
-    for (int i = 0; normal && i < m->nvertices; i++)
+    for (int i = 0; normal && i < m->nvertices + m->nextra; i++)
         fprintf(f, "vn %.6f %.6f %.6f\n", m->normal[i].x, m->normal[i].y, m->normal[i].z);
+    const Crease *crease = m->crease;
     for (int t = 0; t < m->ntriangles; t++) {
         if (t == 0) fprintf(f, "g left_back\n");
         if (t == 100) fprintf(f, "g right\n");
         fprintf(f, "f");
         for (int c = 0; c < 3; c++) {
-            int i = m->triangle[t].v[c] + 1;
-            if (uv && normal) fprintf(f, " %d/%d/%d", i, i, i);
+            int i = m->triangle[t].v[c] + 1, own = i;
+            if (crease < m->crease + m->ncreases && crease->corner == 3 * t + c) own = crease++->normal + 1;
+            if (uv && normal) fprintf(f, " %d/%d/%d", i, i, own);
             else if (uv) fprintf(f, " %d/%d", i, i);
-            else if (normal) fprintf(f, " %d//%d", i, i);
+            else if (normal) fprintf(f, " %d//%d", i, own);
             else fprintf(f, " %d", i);
         }
         fprintf(f, "\n");
@@ -53,7 +55,7 @@ static void test_text(Vectors vectors) {
         for (size_t k = 0; k < 4; k++) {
             Mesh m = sheet.mesh;
             if (k & 1) m.u = m.w = NULL;
-            if (k & 2) m.normal = NULL;
+            if (k & 2) m.normal = NULL, m.ncreases = m.nextra = 0;
             good = good && same_text(&w, &m, units[k]);
         }
     OK(good, "vectors %d: OBJ text equals that of fprintf in any unit, with parameters and normals or without",
@@ -76,6 +78,8 @@ static void test_what_changes(void) {
     OK(same_text(&w, m, 1), "another parameter");
     sheet.triangle[TRIANGLES - 1].v[2]--;
     OK(same_text(&w, m, 1), "another corner");
+    sheet.crease[2].corner++;
+    OK(same_text(&w, m, 1), "another crease");
     m->ntriangles--;
     sheet.group[2].count--;
     OK(same_text(&w, m, 1), "a triangle less");
@@ -109,10 +113,12 @@ static bool same_mesh(const Mesh *a, const Mesh *b) {
     bool good = a->nvertices == b->nvertices && a->ntriangles == b->ntriangles &&
                 memcmp(a->triangle, b->triangle, (size_t)a->ntriangles * sizeof(Triangle)) == 0 && a->normal && a->u &&
                 a->w;
-    for (int i = 0; good && i < a->nvertices; i++)
+    for (int i = 0; good && i < a->nvertices; i++) {
+        int n = i == 0 ? b->crease[0].normal : i; /* that of its first corner */
         good = a->position[i].x == b->position[i].x && a->position[i].y == b->position[i].y &&
-               a->position[i].z == b->position[i].z && fabs(a->normal[i].x - b->normal[i].x) < 1e-6 &&
+               a->position[i].z == b->position[i].z && vec_dist(a->normal[i], b->normal[n]) < 2e-6 &&
                fabs(a->u[i] - b->u[i]) < 1e-6 && fabs(a->w[i] - b->w[i]) < 1e-6;
+    }
     return good;
 }
 

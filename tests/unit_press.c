@@ -44,21 +44,24 @@ static void put_all(Press *press, const char *where, int first, Outcome *out) {
     for (int i = 0; i < FRAMES && out->all_put; i++) {
         order.frame = first + i;
         for (int v = 0; v < VERTICES; v++) sheet.position[v].y = 0.001 * order.frame;
+        sheet.crease[0].normal = VERTICES;
         out->all_put = press_put(press, &pen, &order, &sheet.mesh, &out->error);
         for (int v = 0; v < VERTICES; v++) sheet.position[v].y = 1e6;
+        sheet.crease[0].normal = 1;
     }
     press_finish(press, &pen, &out->tally, &out->error);
     pen_free(&pen);
 }
 
-/* The y of the first vertex of a file that was written. */
+/* The y of the first vertex of a file that was written; -1 without the crease there. */
 static double height_in(int frame) {
     char name[40];
     Arena arena = {0};
     Error e = {0};
     Mesh m;
     snprintf(name, sizeof name, "sheet.%04d.obj", frame);
-    double y = obj_read(in_folder(name), &arena, &m, &e) && m.nvertices == VERTICES ? m.position[0].y : -1;
+    bool good = obj_read(in_folder(name), &arena, &m, &e) && m.nvertices == VERTICES && m.normal[0].z == -1;
+    double y = good ? m.position[0].y : -1;
     arena_free(&arena);
     return y;
 }

@@ -21,7 +21,8 @@ typedef struct { struct DrcKept *kept; } DrcWriter;
 extern "C" {
 #endif
 /* Encodes the mesh (positions times `unit`, normals and u, w where present) and writes it as
-   obj_write does: temporary name, then rename. *bytes, if not NULL, gets the size. ERR_OUTPUT;
+   obj_write does: temporary name, then rename. A vertex has one normal: creases are left out, for
+   Draco would take the surface apart there. *bytes, if not NULL, gets the size. ERR_OUTPUT;
    ERR_INTERNAL where Draco refuses. */
 MUST_CHECK bool drc_write(DrcWriter *w, const char *path, const Mesh *mesh, double unit, const DrcOptions *options,
                           long long *bytes, Error *e);

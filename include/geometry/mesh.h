@@ -13,15 +13,21 @@ typedef struct { int v[2]; } Edge; /* v[0] < v[1] */
 /* Triangles first..first+count-1 belong to the group. */
 typedef struct { const char *name; int first, count; } MeshGroup;
 
+/* A corner (3 * triangle + 0..2) that has another normal than its vertex. */
+typedef struct { int corner, normal; } Crease;
+
 /* Arrays belong to the arena they were made in. normal (unit, outward), u and w (patch
-   parameters in [0, 1]) may be NULL. edge lists each undirected edge once. */
+   parameters in [0, 1]) may be NULL. edge lists each undirected edge once. Where cloth is folded so
+   sharply that no normal serves all facets round a vertex, some of their corners have normals of their
+   own: `nextra` of them stand behind those of the vertices, and creases tell whose they are, in order. */
 typedef struct {
-    int nvertices, ntriangles, nedges, ngroups;
+    int nvertices, ntriangles, nedges, ngroups, nextra, ncreases;
     Vec3 *position, *normal;
     double *u, *w;
     Triangle *triangle;
     Edge *edge;
     MeshGroup *group;
+    Crease *crease;
 } Mesh;
 
 /* What the text "%.6f" of x, read back, is worth: the double nearest to round(x * 1e6) / 1e6

@@ -126,7 +126,9 @@ static void *copy(char **at, const void *items, size_t n, size_t size) {
 /* False where there is no memory: then the mesh is written at once, without a copy. */
 static bool copy_mesh(PressSheet *s, const Mesh *m) {
     size_t v = (size_t)m->nvertices, t = (size_t)m->ntriangles, g = (size_t)m->ngroups;
-    size_t need = v * (2 * sizeof(Vec3) + 2 * sizeof(double)) + t * sizeof(Triangle) + g * sizeof(MeshGroup) + 6 * 16;
+    size_t normals = v + (size_t)m->nextra, creases = (size_t)m->ncreases;
+    size_t need = (v + normals) * sizeof(Vec3) + 2 * v * sizeof(double) + t * sizeof(Triangle) + g * sizeof(MeshGroup) +
+                  creases * sizeof(Crease) + 7 * 16;
     if (need > s->capacity) {
         free(s->memory);
         s->memory = malloc(need + need / 4);
@@ -136,11 +138,12 @@ static bool copy_mesh(PressSheet *s, const Mesh *m) {
     char *at = s->memory;
     s->mesh = *m;
     s->mesh.position = copy(&at, m->position, v, sizeof(Vec3));
-    s->mesh.normal = copy(&at, m->normal, v, sizeof(Vec3));
+    s->mesh.normal = copy(&at, m->normal, normals, sizeof(Vec3));
     s->mesh.u = copy(&at, m->u, v, sizeof(double));
     s->mesh.w = copy(&at, m->w, v, sizeof(double));
     s->mesh.triangle = copy(&at, m->triangle, t, sizeof(Triangle));
     s->mesh.group = copy(&at, m->group, g, sizeof(MeshGroup));
+    s->mesh.crease = copy(&at, m->crease, creases, sizeof(Crease));
     s->mesh.edge = NULL;
     return true;
 }

@@ -88,7 +88,7 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
     d->root = ARENA_NEW(arena, Patch, d->fit.npatches, e);
     d->position = ARENA_NEW(arena, Vec3, places, e);
     d->clear = ARENA_NEW(arena, unsigned, places, e);
-    d->normal = ARENA_NEW(arena, Vec3, places, e);
+    d->normal = ARENA_NEW(arena, Vec3, 2 * places, e); /* with those of creases */
     d->u = ARENA_NEW(arena, double, places, e);
     d->w = ARENA_NEW(arena, double, places, e);
     if (!d->root || !d->position || !d->clear || !d->normal || !d->u || !d->w) return false;
@@ -276,7 +276,10 @@ static void fill_mesh(Dresser *d, Mesh *mesh) {
                    .u = d->u,
                    .w = d->w,
                    .triangle = s->triangle,
-                   .edge = s->edge};
+                   .edge = s->edge,
+                   .nextra = d->normals.nextra,
+                   .ncreases = d->normals.ncreases,
+                   .crease = d->normals.crease};
     set_groups(d, s->first_of_patch, mesh);
 }
 

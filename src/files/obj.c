@@ -2,9 +2,9 @@
 
    A frame is some ten thousand short lines. Those of points and normals are formatted by digits.c,
    sixteen at a time. Parameters and faces mostly are those of an earlier file, and copied from
-   there (memo.c). Vertices, texture coordinates and normals share their numbering: a corner is i, i/i,
-   i//i or i/i/i. What that looks like depends on i alone, so it is written once for all files, and faces,
-   where they are new, are put together from it. */
+   there (memo.c). Vertices, texture coordinates and normals share their numbering, but at creases: a
+   corner is i, i/i, i//i or i/i/i. What that looks like depends on i alone, so it is written once for all
+   files, and faces, where they are new, are put together from it. */
 #include "files/obj.h"
 
 #include <stdlib.h>
@@ -142,8 +142,19 @@ static bool make_corners(ObjWriter *w, int n, int kind, Error *e) {
     return true;
 }
 
+/* The corner of a crease: number and normal differ. */
+static char *put_crease(char *at, int number, int normal, int kind) {
+    *at++ = ' ';
+    at = decimal_put_int(at, number);
+    *at++ = '/';
+    if (kind & HAS_UV) at = decimal_put_int(at, number);
+    *at++ = '/';
+    return decimal_put_int(at, normal);
+}
+
 static bool put_faces(ObjWriter *w, const Mesh *mesh, Error *e) {
     int group = 0;
+    const Crease *crease = mesh->crease, *end = crease + mesh->ncreases;
     if (!make_corners(w, mesh->nvertices, kind_of(mesh), e)) return false;
     for (int t = 0; t < mesh->ntriangles; t++) {
         for (; group < mesh->ngroups && mesh->group[group].first <= t; group++)
@@ -153,6 +164,10 @@ static bool put_faces(ObjWriter *w, const Mesh *mesh, Error *e) {
         *at++ = 'f';
         for (int c = 0; c < 3; c++) {
             const struct ObjCorner *corner = &w->corner[mesh->triangle[t].v[c]];
+            if (crease < end && crease->corner == 3 * t + c) {
+                at = put_crease(at, mesh->triangle[t].v[c] + 1, crease++->normal + 1, w->corner_kind);
+                continue;
+            }
             memcpy(at, corner->text, CORNER_ROOM);
             at += corner->length;
         }
@@ -192,6 +207,7 @@ static bool put_faces_again(ObjWriter *w, const Mesh *mesh, Error *e) {
     memo_add(&w->memo, "f", 1);
     memo_add(&w->memo, &kind, sizeof kind);
     memo_add(&w->memo, mesh->triangle, (size_t)mesh->ntriangles * sizeof(Triangle));
+    memo_add(&w->memo, mesh->crease, (size_t)mesh->ncreases * sizeof(Crease));
     for (int g = 0; g < mesh->ngroups; g++) {
         memo_add(&w->memo, &mesh->group[g].first, sizeof(int));
         memo_add(&w->memo, &mesh->group[g].count, sizeof(int));
@@ -205,7 +221,8 @@ bool obj_format(ObjWriter *w, const Mesh *mesh, double unit, Error *e) {
     return put_head(w, w->metre > 0 ? w->metre : unit, e) &&
            put_vectors(w, "v", mesh->position, mesh->nvertices, unit, e) &&
            (!mesh->u || !mesh->w || put_parameters_again(w, mesh, e)) &&
-           (!mesh->normal || put_vectors(w, "vn", mesh->normal, mesh->nvertices, 1, e)) && put_faces_again(w, mesh, e);
+           (!mesh->normal || put_vectors(w, "vn", mesh->normal, mesh->nvertices + mesh->nextra, 1, e)) &&
+           put_faces_again(w, mesh, e);
 }
 
 bool obj_write(ObjWriter *w, const char *path, const Mesh *mesh, double unit, long long *bytes, Error *e) {

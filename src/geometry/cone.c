@@ -2,6 +2,8 @@
    Found as in the plane (Welzl 1991): a point outside the circle so far must lie on the new one. */
 #include "geometry/cone.h"
 
+#include <stdbool.h>
+
 static const double EPSILON = 1e-12; /* cosine: that much outside is on the circle */
 
 /* The same angle from a, b and c, on their side. */
@@ -12,7 +14,7 @@ static Vec3 centre(Vec3 a, Vec3 b, Vec3 c) {
 
 static bool is_outside(Vec3 axis, Vec3 on, Vec3 p) { return vec_dot(axis, p) < vec_dot(axis, on) - EPSILON; }
 
-bool cone_axis(const Vec3 *p, int n, Vec3 *axis) {
+double cone_axis(const Vec3 *p, int n, Vec3 *axis) {
     Vec3 a = p[0];
     for (int i = 1, on = 0; i < n; i++) {
         if (!is_outside(a, p[on], p[i])) continue;
@@ -24,8 +26,8 @@ bool cone_axis(const Vec3 *p, int n, Vec3 *axis) {
                 if (is_outside(a, p[i], p[k])) a = centre(p[i], p[j], p[k]);
         }
     }
-    for (int i = 0; i < n; i++)
-        if (!(vec_dot(a, p[i]) > 0)) return false;
+    double least = 1;
+    for (int i = 0; i < n; i++) least = fmin(least, vec_dot(a, p[i]));
     *axis = a;
-    return true;
+    return least;
 }
