@@ -26,11 +26,21 @@ typedef struct {
 typedef struct Bench Bench;
 void bench_enter(Bench *b, BenchRow row);
 
-/* A number that is no time: the exponent of a growth, a share. */
-void bench_note(Bench *b, const char *scene, const char *what, const char *how, double value);
+/* A number that is no time, such as a share. `most`: what it should not exceed; 0: anything. */
+void bench_note(Bench *b, const char *scene, const char *what, const char *how, double value, double most);
 
-/* The exponent of `seconds` as a power of `size`: the slope of a line through their logarithms. */
-double bench_exponent(const double *size, const double *seconds, int n);
+/* A thing that was done in growing sizes. Entered are the time of each unit at each size, and the exponent of
+   time as a power of size: the slope of a line through their logarithms. */
+enum { SERIES_MAX = 16 };
+typedef struct {
+    const char *what, *unit;
+    int n;
+    double size[SERIES_MAX], seconds[SERIES_MAX];
+    double most;            /* the exponent should not exceed; 0: any */
+} BenchSeries;
+void bench_add(BenchSeries *s, double size, double seconds);
+void bench_series(Bench *b, const BenchSeries *s);
+double bench_exponent(const BenchSeries *s);
 
 /* Ends the program: a benchmark's own preparations must not fail. */
 void bench_need(bool good, const Error *e);

@@ -100,22 +100,22 @@ static void compare(Bench *b, const char *scene, int edges, int triangles, doubl
     arena_free(&arena);
 }
 
-/* Time against the sum of edges and triangles; the share of them that meet stays the same. */
+/* Time against the number of edges, of triangles, and of both; the share of them that meet stays the same. */
 static void growth(Bench *b) {
-    enum { SIZES = 6 };
-    double sum[SIZES], seconds[SIZES];
-    for (int k = 0, size = 2000; k < SIZES; k++, size *= 2) {
-        Arena arena = {0};
-        char what[40];
-        Legs l = make_legs(&arena, size, size);
-        Timing time = time_with(&l, VECTORS_BEST);
-        sum[k] = l.body.nedges + l.cloth.ntriangles;
-        seconds[k] = time.least;
-        snprintf(what, sizeof what, "crossing; %d and %d", size, size);
-        bench_enter(b, (BenchRow){"growth", what, l.count.pairs_all, "pairs", time, NULL, {0, 0}, 0});
-        arena_free(&arena);
+    enum { LEAST = 2000, MOST = 64000, FIXED = 8000 };
+    static const char *const what[] = {"crossing; edges", "crossing; triangles", "crossing; both"};
+    for (int kind = 0; kind < 3; kind++) {
+        BenchSeries s = {.what = what[kind], .unit = kind == 0 ? "edges" : kind == 1 ? "triangles" : "both",
+                         .most = kind == 2 ? 1.1 : 0};
+        for (int size = LEAST; size <= MOST; size *= 2) {
+            Arena arena = {0};
+            Legs l = make_legs(&arena, kind == 1 ? FIXED : size, kind == 0 ? FIXED : size);
+            int items = (kind != 1 ? l.body.nedges : 0) + (kind != 0 ? l.cloth.ntriangles : 0);
+            bench_add(&s, items, time_with(&l, VECTORS_BEST).least);
+            arena_free(&arena);
+        }
+        bench_series(b, &s);
     }
-    bench_note(b, "growth", "crossing", "exponent", bench_exponent(sum, seconds, SIZES));
 }
 
 void bench_crossing(Bench *b) {

@@ -69,19 +69,20 @@ static Timing enter(Bench *b, const char *scene, const char *what, Walk *w, doub
 /* Time against the fineness of the cloth, of the body, and the number of frames. */
 static void growth(Bench *b) {
     static const int cloth[] = {8, 11, 16, 22}, body[] = {12, 16, 24, 32}, frames[] = {9, 18, 36, 72};
-    static const char *const what[] = {"frame; finer cloth", "frame; finer body", "frames"};
-    double size[4], seconds[4];
-    for (int series = 0; series < 3; series++) {
+    static const char *const what[] = {"frames; finer cloth", "frames; finer body", "frames"};
+    static const char *const unit[] = {"triangles of the cloth", "triangles of the body", "frames"};
+    for (int kind = 0; kind < 3; kind++) {
+        BenchSeries s = {.what = what[kind], .unit = unit[kind]};
         for (int k = 0; k < 4; k++) {
             Walk w;
-            walk_open(&w, SKIRT, 1, (DressOptions){.detail = series == 0 ? cloth[k] : 10}, series == 1 ? body[k] : 16);
-            if (series == 2) w.frames = frames[k];
-            Timing time = bench_time(dress, &w);
-            size[k] = series == 0 ? w.sum.triangles : series == 1 ? w.wearer.body.skin.ntriangles : w.frames;
-            seconds[k] = time.least;
+            walk_open(&w, SKIRT, 1, (DressOptions){.detail = kind == 0 ? cloth[k] : 10}, kind == 1 ? body[k] : 16);
+            if (kind == 2) w.frames = frames[k];
+            Timing time = per(bench_time(dress, &w), kind == 2 ? 1 : w.frames);
+            double triangles = kind == 0 ? (double)w.sum.triangles / w.frames : w.wearer.body.skin.ntriangles;
+            bench_add(&s, kind == 2 ? w.frames : triangles, time.least);
             walk_close(&w);
         }
-        bench_note(b, "growth", what[series], "exponent", bench_exponent(size, seconds, 4));
+        bench_series(b, &s);
     }
 }
 
