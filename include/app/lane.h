@@ -1,4 +1,4 @@
-/* What one thread needs to dress the frames of a chunk: a pose of its own, dressers, memory. */
+/* What one thread needs to dress the frames of a chunk: poses of its own, dressers, memory. */
 #ifndef APP_LANE_H
 #define APP_LANE_H
 
@@ -7,11 +7,18 @@
 #include "app/wearer.h"
 #include "dress/room.h"
 
+/* A frame, and the body posed for it. Motion, figure and body are the job's. */
+typedef struct {
+    Wearer wearer;
+    TakeFrame frame;
+    double seconds;      /* that posing it took */
+} Stance;
+
 /* Clear with {0} once, lane_free at the end; in between it serves any motion. */
 typedef struct {
     Arena arena;
     Pen pen;
-    Wearer wearer;       /* motion, figure and body are the job's, the pose is its own */
+    Stance stance[2];    /* of the frame that is dressed, and of the next */
     Dresser **dresser;   /* one for each garment */
     Cloth cloth;         /* the room that these need */
 } Lane;

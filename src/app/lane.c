@@ -2,7 +2,8 @@
 
        row -> pose -> body mesh -> each garment -> the press (OBJ, Draco), a row of statistics
 
-   A frame's garments are dressed side by side where threads are free (see crew.c).
+   While one frame is dressed the body is posed for the next. That, each of the frame's garments and
+   its body mesh do not wait for each other: they are the pieces that free threads take (see crew.c).
 
    Read lane_run from its end upwards. Everything that a frame needs is taken before the first
    one; memory does not grow with the number of frames. A chunk begins with fresh dressers, for then it
@@ -33,66 +34,81 @@ bool lane_open(Lane *lane, const LaneWork *work, Error *e) {
     options.method = (Method)s->method;
     options.fixed_topology = s->fixed != 0;
     arena_reset(&lane->arena);
-    return wearer_share(work->wearer, work->unit, &lane->arena, &lane->wearer, e) &&
-           wearer_put_on(&lane->wearer, work->wardrobe, &options, &lane->arena, &lane->dresser, e);
+    return wearer_share(work->wearer, work->unit, &lane->arena, &lane->stance[0].wearer, e) &&
+           wearer_share(work->wearer, work->unit, &lane->arena, &lane->stance[1].wearer, e) &&
+           wearer_put_on(work->wearer, work->wardrobe, &options, &lane->arena, &lane->dresser, e);
 }
 
-static bool relax_arms(Lane *lane, const Wardrobe *wardrobe, Take *take, Error *e) {
-    const Wearer *w = &lane->wearer;
+static bool relax_arms(Lane *lane, const LaneWork *work, Take *take, Error *e) {
+    const Wearer *w = work->wearer;
     lane->cloth = (Cloth){0};
-    for (int g = 0; g < wardrobe->ngarments; g++)
-        if (!room_add(wardrobe->garment[g], &w->figure, &w->body, &lane->arena, &lane->cloth, e)) return false;
+    for (int g = 0; g < work->wardrobe->ngarments; g++)
+        if (!room_add(work->wardrobe->garment[g], &w->figure, &w->body, &lane->arena, &lane->cloth, e)) return false;
     return take_relax(take, &w->body, &lane->cloth, &lane->arena, e);
 }
 
-/* Hands a mesh to the press; rows share the time of writing it. */
-static bool put(Run *r, Pen *pen, const char *name, int frame, const Mesh *mesh, long long *bytes, StatsRow *row,
-                int nrows, Error *e) {
+/* Hands a mesh to the press; rows share the time of writing it. What goes wrong the tally remembers. */
+static void put(Run *r, Pen *pen, const char *name, int frame, const Mesh *mesh, long long *bytes, StatsRow *row,
+                int nrows) {
     PressOrder order = {r->settings, r->work->folder, name, frame, r->work->unit, bytes, row, nrows, &r->tally};
-    return r->settings->formats == FORMAT_NONE || press_put(r->work->press, pen, &order, mesh, e);
+    Error e = {0};
+    if (r->settings->formats == FORMAT_NONE || !press_put(r->work->press, pen, &order, mesh, &e)) return;
 }
 
-/* The garments of a frame are dressed by whoever is free. row: of each; NULL: nothing is to be written. */
-typedef struct { Run *run; const TakeFrame *frame; StatsRow *row; } Fitting;
+/* What is done at the same time. row: one for each garment; NULL: nothing is to be written. next: NULL
+   behind the last frame. */
+typedef struct { Run *run; const Stance *now; Stance *next; StatsRow *row; } Fitting;
 
-static void dress_garment(void *context, int g, Pen *pen) {
-    Fitting *f = context;
+static void pose_body(Stance *s) {
+    double since = clock_seconds();
+    body_frame_pose(&s->wearer.posed, &s->frame.pose);
+    s->seconds += clock_lap(&since);
+}
+
+static void dress_garment(const Fitting *f, int g, Pen *pen) {
     Run *r = f->run;
+    const TakeFrame *frame = &f->now->frame;
     Mesh mesh;
     FrameStats stats;
-    Error e = {0};
     double since = clock_seconds();
-    dresser_frame(r->lane->dresser[g], &r->lane->wearer.posed, f->frame->dt, f->frame->restart, &mesh, &stats);
+    dresser_frame(r->lane->dresser[g], &f->now->wearer.posed, frame->dt, frame->restart, &mesh, &stats);
     if (!f->row) return;
-    StatsRow *row = &f->row[g];
-    row->stats = stats;
+    f->row[g].stats = stats;
     r->result->seconds[g] += clock_lap(&since);
-    if (!put(r, pen, row->garment, f->frame->number, &mesh, &r->result->bytes[g], row, 1, &e))
-        return; /* the tally tells */
+    put(r, pen, f->row[g].garment, frame->number, &mesh, &r->result->bytes[g], &f->row[g], 1);
 }
 
-static bool dress_garments(Run *r, const TakeFrame *frame, StatsRow *row, Error *e) {
-    Fitting f = {r, frame, row};
-    crew_do(r->work->press, &r->lane->pen, &r->tally, dress_garment, &f, r->work->wardrobe->ngarments);
+/* All rows share the time for the body. */
+static void put_body(const Fitting *f, Pen *pen) {
+    Run *r = f->run;
+    Mesh body = wearer_skin(&f->now->wearer);
+    put(r, pen, "body", f->now->frame.number, &body, &r->result->body_bytes, f->row, r->work->wardrobe->ngarments);
+}
+
+enum { PIECE_POSE, PIECE_BODY, PIECE_GARMENTS };
+
+static void do_piece(void *context, int piece, Pen *pen) {
+    const Fitting *f = context;
+    if (piece >= PIECE_GARMENTS) dress_garment(f, piece - PIECE_GARMENTS, pen);
+    else if (piece == PIECE_POSE && f->next) pose_body(f->next);
+    else if (piece == PIECE_BODY && f->row && !f->run->settings->no_body) put_body(f, pen);
+}
+
+static bool dress_and_pose(Run *r, const Stance *now, Stance *next, StatsRow *row, Error *e) {
+    Fitting f = {r, now, next, row};
+    crew_do(r->work->press, &r->lane->pen, &r->tally, do_piece, &f, PIECE_GARMENTS + r->work->wardrobe->ngarments);
     return press_good(r->work->press, &r->tally, e);
 }
 
-/* The rows share the time for the body. */
-static bool dress_frame(Run *r, const TakeFrame *frame, double since, Error *e) {
+static bool dress_frame(Run *r, const Stance *now, Stance *next, Error *e) {
     int n = r->work->wardrobe->ngarments;
     bool residual = false;
     StatsRow *row = &r->result->row[r->result->nrows];
-    body_frame_pose(&r->lane->wearer.posed, &frame->pose);
-    double pose_s = clock_lap(&since) / n;
     for (int g = 0; g < n; g++)
-        row[g] = (StatsRow){.frame = frame->number, .time = frame->time, .split = (SplitRule)r->settings->split,
-                            .method = (Method)r->settings->method, .garment = r->work->wardrobe->garment[g]->name,
-                            .pose_s = pose_s, .arm_turn = frame->arm_turn};
-    Mesh body = wearer_skin(&r->lane->wearer);
-    if (!r->settings->no_body &&
-        !put(r, &r->lane->pen, "body", frame->number, &body, &r->result->body_bytes, row, n, e))
-        return false;
-    if (!dress_garments(r, frame, row, e)) return false;
+        row[g] = (StatsRow){.frame = now->frame.number, .time = now->frame.time, .arm_turn = now->frame.arm_turn,
+                            .split = (SplitRule)r->settings->split, .method = (Method)r->settings->method,
+                            .garment = r->work->wardrobe->garment[g]->name, .pose_s = now->seconds / n};
+    if (!dress_and_pose(r, now, next, row, e)) return false;
     for (int g = 0; g < n; g++) residual = residual || stats_has_residual(&row[g].stats);
     r->result->nrows += n;
     r->result->frames++;
@@ -100,26 +116,35 @@ static bool dress_frame(Run *r, const TakeFrame *frame, double since, Error *e) 
     return true;
 }
 
-/* A frame in front of the chunk: only what the cloth carries on from it is wanted. */
-static bool warm_up(Run *r, const TakeFrame *frame, Error *e) {
-    body_frame_pose(&r->lane->wearer.posed, &frame->pose);
-    return dress_garments(r, frame, NULL, e);
+/* False where there is no other frame, or with an error. */
+static bool read_frame(const Run *r, Take *take, Stance *s, Error *e) {
+    double since = clock_seconds();
+    if (!take_next(take, &s->frame, e)) return false;
+    if (s->frame.number < r->chunk->own) take_forget_jumps(take); /* they are the chunk's before */
+    s->seconds = clock_lap(&since);
+    return true;
 }
 
 static bool dress_frames(Run *r, Take *take, const LaneWatch *watch, Error *e) {
-    TakeFrame frame;
-    int left = take_count(take);
-    for (double since = clock_seconds(); take_next(take, &frame, e); since = clock_seconds()) {
-        left--;
-        if (frame.number < r->chunk->own) {
-            if (!warm_up(r, &frame, e)) return false;
-            take_forget_jumps(take); /* they are the chunk's before */
+    Stance *now = &r->lane->stance[0], *next = &r->lane->stance[1];
+    Error ahead = {0}; /* of the next frame: this one is dressed all the same */
+    bool more = read_frame(r, take, now, &ahead);
+    if (more) pose_body(now);
+    while (more) {
+        more = read_frame(r, take, next, &ahead);
+        Stance *coming = more ? next : NULL;
+        if (now->frame.number < r->chunk->own) { /* only what the cloth carries on from it is wanted */
+            if (!dress_and_pose(r, now, coming, NULL, e)) return false;
         } else {
-            if (!dress_frame(r, &frame, since, e)) return false;
+            if (!dress_frame(r, now, coming, e)) return false;
             watch->frame(watch->context);
         }
-        if (stop_requested() && left > 0) return error_set(e, ERR_INTERRUPTED, "interrupted");
+        if (stop_requested() && more) return error_set(e, ERR_INTERRUPTED, "interrupted");
+        Stance *done = now;
+        now = next;
+        next = done;
     }
+    *e = ahead;
     return e->kind == ERR_NONE;
 }
 
@@ -131,13 +156,13 @@ static void count_writing(Run *r) {
 }
 
 void lane_run(Lane *lane, const LaneWork *work, const Chunk *chunk, const LaneWatch *watch, ChunkResult *out) {
-    const Wearer *w = &lane->wearer;
+    const Wearer *w = work->wearer;
     const Settings *s = work->wardrobe->settings;
     Run r = {.lane = lane, .work = work, .settings = s, .chunk = chunk, .result = out};
     Error *e = &out->error;
     Take *take = NULL;
     if (take_open(&w->motion, &w->figure, &chunk->span, s->rate, &lane->arena, &take, e) &&
-        (!s->relax_arms || relax_arms(lane, work->wardrobe, take, e))) {
+        (!s->relax_arms || relax_arms(lane, work, take, e))) {
         dress_frames(&r, take, watch, e);
         press_finish(work->press, &lane->pen, &r.tally, e);
         count_writing(&r);
