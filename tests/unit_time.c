@@ -82,7 +82,52 @@ static void held_is_still(const char *name) {
     arena_free(&s.arena);
 }
 
+/* Up and down within a second and a half. */
+static double swing(double t) { return t > 1.5 ? 0 : 40 * (1 - cos(t / 1.5 * 2 * PI)); }
+
+/* The shape at each tenth of the motion's two seconds, at some frame rate. */
+enum { INSTANTS = 20 };
+static void dress_at(Scene *s, double rate, Vec3 *shape[INSTANTS], int *nvertices) {
+    Dresser *d = open_dresser(s, METHOD_PUSH);
+    int every = (int)(rate / 10 + 0.5);
+    for (int f = 0; f < INSTANTS * every; f++) {
+        Pose pose = lifted(s, swing(f / rate));
+        Mesh mesh;
+        scene_frame(s, d, &pose, 1 / rate, f == 0, &mesh);
+        if (f % every) continue;
+        *nvertices = mesh.nvertices;
+        shape[f / every] = ARENA_NEW(&s->arena, Vec3, mesh.nvertices, &s->error);
+        need(s, shape[f / every] != NULL);
+        memcpy(shape[f / every], mesh.position, (size_t)mesh.nvertices * sizeof(Vec3));
+    }
+}
+
+static void rate_does_not_matter(const char *name) {
+    static const double rate[] = {60, 30};
+    Scene s;
+    scene_open(&s, name);
+    Vec3 *best[INSTANTS], *other[INSTANTS];
+    int n;
+    dress_at(&s, 120, best, &n);
+    for (int r = 0; r < 2; r++) {
+        double worst = 0, sum = 0;
+        dress_at(&s, rate[r], other, &n);
+        for (int k = 0; k < INSTANTS; k++)
+            for (int v = 0; v < n; v++) {
+                double off = vec_dist(best[k][v], other[k][v]);
+                worst = fmax(worst, off);
+                sum += off / (n * INSTANTS);
+            }
+        OK(sum < 0.0005 && worst < 0.01, "%s: at %.0f frames a second the same shape as at 120 (%.2f mm, at most %.1f)",
+           name, rate[r], 1000 * sum, 1000 * worst);
+    }
+    arena_free(&s.arena);
+}
+
 int main(void) {
+    rate_does_not_matter("skirt");
+    rate_does_not_matter("trousers");
+    rate_does_not_matter("tshirt");
     held_is_still("skirt");
     held_is_still("trousers");
     held_is_still("tshirt");

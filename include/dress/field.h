@@ -22,7 +22,7 @@ void field_forget(Field *f);
 void field_copy(const Field *from, Field *to);
 
 /* Takes the displacement of the last frame along: turned with the pelvis, faded with time (dt
-   seconds). What is still felt keeps its cells split. restart: forget it. */
+   seconds), large ones no faster than cloth sinks. What is still felt keeps its cells split. restart: forget it. */
 void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leaves *leaves);
 
 /* Levels (bit 1 << level) at which anything is displaced. */

@@ -1,13 +1,13 @@
-/* Where chunks begin. What a frame's cloth takes over from the frame before fades by a fifth every
-   thirtieth of a second (dress/push.c), so after WARM_UP seconds less than a hundred-thousandth
-   of it is left: a chunk that warms up so long begins as if it had been there all the time, to
-   within the digits that are written. Every machine and every number of threads cuts alike, and
-   so all write the same bytes. */
+/* Where chunks begin. What a frame's cloth takes over from the frame before sinks by centimetres in a
+   tenth of a second, then fades by a fifth every thirtieth (dress/field.c); WARM_UP seconds are enough
+   for the most that cloth is ever displaced, a seventh of the height. So a chunk that warms up so long
+   begins as if it had been there all the time, to within the digits that are written. Every machine and
+   every number of threads cuts alike, and so all write the same bytes. */
 #include "app/chunks.h"
 
 /* Seconds, and the bounds in frames that keep odd rates from making chunks of nothing, or chunks
    whose rows of statistics do not fit in memory. */
-static const double LENGTH = 12, WARM_UP = 2;
+static const double LENGTH = 12, WARM_UP = 2.5;
 enum { LENGTH_LEAST = 240, LENGTH_MOST = 4096, WARM_UP_LEAST = 8, WARM_UP_MOST = 512 };
 
 static int bounded(double x, int least, int most) { return x < least ? least : x > most ? most : (int)x; }

@@ -4,7 +4,8 @@
 
 #include <string.h>
 
-static const double FADE = 0.8;                   /* of the carried displacement, in 1/30 s */
+static const double FADE = 0.8;                   /* of the carried displacement, in 1/30 s, */
+static const double SINK = 0.12;                  /* but no faster than that, metres a second on 1.70 m */
 static const double FELT = 0.0002;                /* metres on 1.70 m: a carried displacement below this is dropped */
 static const double CAP_LOOSE = 7, CAP_TIGHT = 9; /* parts of the height */
 
@@ -28,23 +29,31 @@ void field_copy(const Field *from, Field *to) {
     memcpy(to->offset, from->offset, (size_t)from->lattice->nplaces * sizeof *to->offset);
 }
 
+/* What happens to vectors that are carried along. */
+typedef struct {
+    Mat3 turn;
+    double fade, most, felt; /* share that is left; metres that it may lose, and below which it is dropped */
+} Carry;
+
 /* One carried vector; false once it is no longer felt. */
-static bool carry(Vec3 *d, Mat3 turn, double fade, double felt) {
+static bool carry(Vec3 *d, const Carry *c) {
     if (field_is_zero(*d)) return false;
-    *d = vec_scale(mat_apply(turn, *d), fade);
-    if (vec_dot(*d, *d) > felt * felt) return true;
-    *d = vec(0, 0, 0);
-    return false;
+    double length = vec_len(*d), left = fmax(c->fade * length, length - c->most);
+    *d = left > c->felt ? vec_scale(mat_apply(c->turn, *d), left / length) : vec(0, 0, 0);
+    return left > c->felt;
 }
 
+/* Fading lets the cloth sink into what holds it, by as much as is pushed out again. Sunk by centimetres, it
+   would come out at whichever side is near, in one frame here and in the next one there. */
 void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leaves *leaves) {
     const Lattice *l = f->lattice;
-    double fade = restart ? 0 : pow(FADE, dt * 30), felt = FELT * f->scale;
-    Mat3 pelvis = body->pose.bone[ROLE_PELVIS].r, turn = mat_mul(pelvis, mat_transpose(f->pelvis));
+    Mat3 pelvis = body->pose.bone[ROLE_PELVIS].r;
+    Carry c = {mat_mul(pelvis, mat_transpose(f->pelvis)), restart ? 0 : pow(FADE, dt * 30),
+               restart ? INFINITY : SINK * f->scale * dt, FELT * f->scale};
     for (int level = 0; level <= l->depth; level++)
         for (int v = 0; v < l->level[level].count; v++)
-            if (carry(&f->displacement[f->start[level] + v], turn, fade, felt)) leaves_open(leaves, level, v);
-    for (int v = 0; v < l->nplaces; v++) carry(&f->offset[v], turn, fade, felt);
+            if (carry(&f->displacement[f->start[level] + v], &c)) leaves_open(leaves, level, v);
+    for (int v = 0; v < l->nplaces; v++) carry(&f->offset[v], &c);
     f->pelvis = pelvis;
 }
 
