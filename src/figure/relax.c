@@ -133,7 +133,8 @@ static Slice slice_of(const Search *s, const BodyPart *part, double y) {
     Section c = body_section_at(part, y, NULL);
     Slice out = {rigid_apply(g, vec(c.x, y, c.z)), g.r, c, cloth_at(s->cloth, part, y, 0), 0};
     if (part->role == upper_arm(s->arm))
-        out.grace = (1 - smoothstep(ARMPIT_FROM, ARMPIT_TO, y / part->length)) * ARMPIT_DEPTH * figure_scale(s->figure->height);
+        out.grace = ARMPIT_DEPTH * figure_scale(s->figure->height) *
+                    (1 - smoothstep(ARMPIT_FROM, ARMPIT_TO, y / part->length));
     return out;
 }
 
