@@ -185,6 +185,7 @@ static void test_names(void) {
         {"ValveBiped.Bip01_R_UpperArm", -1, PART_UPPER_ARM}, {"lfemur", 1, PART_THIGH}, {"LUArm", 1, PART_UPPER_ARM},
         {"UpperLeftArm", 1, PART_UPPER_ARM}, {"L_lowArm_jnt", 1, PART_FOREARM}, {"mElbowRight", -1, PART_FOREARM},
         {"CC_Base_L_Calf", 1, PART_SHIN}, {"mixamorig:RightToeBase", -1, PART_TOE}, {"l_up_leg", 1, PART_THIGH},
+        {"LUARM", 1, PART_UPPER_ARM}, {"RFARM", -1, PART_FOREARM},
         {"lowerneck", 0, PART_NECK}, {"Head_M", 0, PART_HEAD},
     };
     for (size_t i = 0; i < sizeof hints / sizeof hints[0]; i++) {
@@ -197,6 +198,8 @@ static void test_names(void) {
         OK(name_hint(not_hands[i]).weight[PART_HAND] < 0.1, "'%s' is no hand", not_hands[i]);
     NameHint shoulder = name_hint("LeftShoulder");
     OK(shoulder.weight[PART_CLAVICLE] > 0.5 && shoulder.weight[PART_UPPER_ARM] > 0.5, "'LeftShoulder' may be either");
+    OK(name_hint("Wing1_L").stranger && name_hint("CoatTail").stranger && !name_hint("LeftHandEnd").stranger &&
+           !name_hint("Brazo").stranger, "wings and coats are strangers, unknown words are not");
     static const char *const nothing[] = {"", "j12", "\xff\xfe", "---", "x", "0123"};
     for (size_t i = 0; i < sizeof nothing / sizeof nothing[0]; i++) {
         NameHint h = name_hint(nothing[i]);
@@ -274,6 +277,13 @@ static void test_oddities(void) {
            strcmp(rig_joint(&r, ROLE_CHEST), "Torso") == 0,
        "a trunk of one bone, from which all limbs hang");
     OK(strcmp(rig_joint(&r, ROLE_HEAD), "x2") == 0, "a head without a name ends where eyes grow from it");
+    rig_close(&r);
+    OK(rig_roles(&r, "tests/data/figure/costume.bvh", NULL) &&
+           strcmp(rig_joint(&r, ROLE_LEFT_UPPER_ARM), "BrazoIzq") == 0 &&
+           strcmp(rig_joint(&r, ROLE_RIGHT_THIGH), "MusloDer") == 0,
+       "wings and coat tails with sides are no limbs, beside limbs with names in Spanish");
+    OK(strcmp(rig_joint(&r, ROLE_HEAD), "Head") == 0 && strcmp(rig_joint(&r, ROLE_LEFT_TOE), "L_Toe") == 0,
+       "nodes in front of bones are passed over");
     rig_close(&r);
 }
 

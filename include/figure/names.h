@@ -2,6 +2,8 @@
 #ifndef FIGURE_NAMES_H
 #define FIGURE_NAMES_H
 
+#include <stdbool.h>
+
 /* Bones without their side. */
 typedef enum {
     PART_PELVIS, PART_SPINE, PART_CHEST, PART_NECK, PART_HEAD,
@@ -12,6 +14,7 @@ typedef enum {
 typedef struct {
     int side;                  /* +1 left, -1 right, 0 the name does not say */
     double weight[PART_COUNT]; /* 0 = says nothing, 1 = names that bone and nothing else */
+    bool stranger;             /* names something else: a wing, a skirt, a camera */
 } NameHint;
 
 /* Reads LeftUpLeg, lThigh, thigh_l, thigh.L.001, "Bip01 L Thigh", mixamorig:LeftUpLeg,

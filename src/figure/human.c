@@ -168,6 +168,19 @@ static int same_side(const Tree *t, const LimbPair *legs, const LimbPair *arms) 
 
 static int real_joint(const Tree *t, int joint) { return joint >= 0 && !t->skeleton->joint[joint].is_end ? joint : -1; }
 
+/* Rigs may put a node in front of a bone, where its parent is, and give it the bone's name: the bone is what it
+   carries. */
+static int past_nodes(const Tree *t, int joint, Part part) {
+    for (int next = joint; next >= 0;) {
+        joint = next;
+        next = -1;
+        if (t->bone[joint] > 0.02 * t->reach[joint]) break;
+        for (int c = t->child[joint]; c >= 0; c = t->sibling[c])
+            if (t->hint[c].weight[part] > 0 && t->hint[c].weight[part] >= t->hint[joint].weight[part]) next = c;
+    }
+    return joint;
+}
+
 /* The joint below the foot that begins the toes: a named one, else the first on the longest way. */
 static int find_toe(const Tree *t, int foot) {
     if (foot < 0) return -1;
@@ -180,7 +193,7 @@ static int find_toe(const Tree *t, int foot) {
         double length = t->bone[j] + t->reach[j];
         if (t->skeleton->joint[j].parent == foot && length > longest) longest = length, first = j;
     }
-    return best >= 0 ? best : first;
+    return best >= 0 ? past_nodes(t, best, PART_TOE) : first;
 }
 
 static void set_leg(const Tree *t, const Limb *l, int right, Roles *out) {
@@ -289,18 +302,24 @@ static int head_branch(const Tree *t, const Human *h, int joint) {
     return best;
 }
 
-/* The child that a chain goes on with, or -1 where it ends or parts: eyes, jaw and hair grow from a head. */
-static int goes_on(const Tree *t, const Human *h, int joint) {
-    int next = -1, many = 0;
-    for (int c = t->child[joint]; c >= 0; c = t->sibling[c])
-        if (t->bone[c] + t->reach[c] > 0.02 * h->stature) next = c, many++;
-    return many == 1 && !t->skeleton->joint[next].is_end ? next : -1;
+/* The child that a chain goes on with, or -1 where it ends or parts: eyes, jaw and hair grow from a head, and none is
+   much longer than the others. */
+static int goes_on(const Tree *t, int joint) {
+    int next = -1;
+    double longest = 0, second = 0;
+    for (int c = t->child[joint]; c >= 0; c = t->sibling[c]) {
+        double length = t->bone[c] + t->reach[c];
+        if (length > longest) second = longest, longest = length, next = c;
+        else second = fmax(second, length);
+    }
+    if (next < 0 || t->skeleton->joint[next].is_end || t->hint[next].stranger) return -1;
+    return second < 0.5 * longest ? next : -1;
 }
 
 /* Without names: the last joint on the way up that is not yet the top of the head. */
 static int head_by_shape(const Tree *t, const Human *h, int first) {
     int head = first;
-    for (int j = first; j >= 0; j = goes_on(t, h, j)) {
+    for (int j = first; j >= 0; j = goes_on(t, j)) {
         double height = over_shoulders(t, h, j);
         if (j != first && (height > 0.14 * h->stature || height < over_shoulders(t, h, head))) break;
         head = j;
@@ -326,7 +345,7 @@ static void set_torso(const Tree *t, const Human *h, Roles *out) {
     out->joint[ROLE_SPINE] = find_spine(t, pelvis, chest);
     if (first >= 0) {
         int named = named_below(t, first, PART_HEAD);
-        int head = named >= 0 ? named : head_by_shape(t, h, first);
+        int head = named >= 0 ? past_nodes(t, named, PART_HEAD) : head_by_shape(t, h, first);
         bool only_neck = head == first && named < 0 && t->hint[first].weight[PART_NECK] > 0.5;
         if (only_neck) head = -1;
         if (neck < 0 && first != head) neck = named_neck(t, first, head);

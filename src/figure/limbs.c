@@ -14,7 +14,7 @@ enum {
 };
 
 /* Points. A fully named pair gets about 50, a well shaped one about 10 more. */
-static const double LONG_BONE_NAMED = 10, END_NAMED = 6, CLAVICLE_NAMED = 4, SIDES_NAMED = 5, TRUNK_NAMED = 20;
+static const double LONG_BONE_NAMED = 10, END_NAMED = 6, CLAVICLE_NAMED = 4, SIDES_NAMED = 5, NO_LIMB_NAMED = 20;
 static const double COVERAGE = 8, UNEVEN = 4, SKIPPED = 0.4, FORKED = 2, BENT = 20, FAR_START = 4;
 static const double NO_END_JOINT = 1, COINCIDES = 0.5, MIRROR = 8;
 
@@ -54,9 +54,9 @@ typedef struct {
     double along[DEPTH_MAX]; /* distance from the hub along the way */
 } Way;
 
-/* Does the name say that this is a bone of the trunk, or neck or head? */
-static double of_trunk(const Tree *t, int joint) {
-    double most = 0;
+/* Does the name say that this is no limb: a bone of the trunk, neck or head, or of no body at all? */
+static double of_no_limb(const Tree *t, int joint) {
+    double most = t->hint[joint].stranger ? 0.4 : 0;
     for (int part = PART_PELVIS; part <= PART_HEAD; part++) most = fmax(most, t->hint[joint].weight[part]);
     return most;
 }
@@ -65,7 +65,7 @@ static double name_points(const Tree *t, LimbKind kind, const int joint[3]) {
     static const Part part[2][3] = {{PART_THIGH, PART_SHIN, PART_FOOT}, {PART_UPPER_ARM, PART_FOREARM, PART_HAND}};
     return LONG_BONE_NAMED * (t->hint[joint[0]].weight[part[kind][0]] + t->hint[joint[1]].weight[part[kind][1]]) +
            END_NAMED * t->hint[joint[2]].weight[part[kind][2]] -
-           TRUNK_NAMED * (of_trunk(t, joint[0]) + of_trunk(t, joint[1]));
+           NO_LIMB_NAMED * (of_no_limb(t, joint[0]) + of_no_limb(t, joint[1]));
 }
 
 /* The joint before the upper arm that looks most like a clavicle; *points for its name. */

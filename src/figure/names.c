@@ -9,7 +9,6 @@
 #include "figure/names.h"
 
 #include <ctype.h>
-#include <stdbool.h>
 #include <string.h>
 
 enum { WORDS_MAX = 16, TOKEN_MAX = 40 };
@@ -25,7 +24,8 @@ static const char *const strangers[] = {
     "dummy", "eye", "eyes", "eyelid", "ear", "jaw", "hair", "breast", "bust", "thumb", "index", "middle", "ring",
     "pinky", "pinkie", "finger", "fingers", "metacarpal", "carpal", "heel", "tongue", "brow", "lip", "lips", "cheek",
     "nose", "mouth", "teeth", "weapon", "prop", "skirt", "cloth", "tail", "wing", "buttock", "butt", "glute", "pad",
-    "attach", "socket", "camera", "nail", "pec", "rib", "sole",
+    "attach", "socket", "camera", "nail", "pec", "rib", "sole", "coat", "cape", "dress", "robe", "scarf", "ribbon",
+    "sleeve", "sword", "gun", "bag", "belt", "hat", "horn", "feather",
 };
 
 /* A phrase: one word, or two that follow each other. where: 's' says it only of a bone that
@@ -89,6 +89,8 @@ static const Phrase phrases[] = {
     {"acromial", NULL, 's', PART_UPPER_ARM, 0.9},
     {"arm", NULL, 's', PART_UPPER_ARM, 0.9},
     {"uparm", NULL, 's', PART_UPPER_ARM, 1},
+    {"uarm", NULL, 's', PART_UPPER_ARM, 1}, /* LUARM, where no capital tells words apart */
+    {"farm", NULL, 's', PART_FOREARM, 1},
     {"humerus", NULL, 's', PART_UPPER_ARM, 1},
     {"bicep", NULL, 's', PART_UPPER_ARM, 0.7},
     {"elbow", NULL, 's', PART_FOREARM, 0.95},
@@ -238,5 +240,7 @@ NameHint name_hint(const char *name) {
         }
         for (int i = 0; i < WORDS_MAX; i++) used[i] |= taken[i];
     }
+    hint.stranger = factor < 0.1;
+    for (int part = 0; part < PART_COUNT; part++) hint.stranger = hint.stranger && hint.weight[part] == 0;
     return hint;
 }
