@@ -300,8 +300,19 @@ static const struct { const char *file, *unit; char up; double stature; int habi
     {"cmu_11_01_kick.amc", "5.644 cm", 'y', 1.78, WALKS | STANDS},
 };
 
+/* By how much a knee that is bent by 50 degrees or more does not lie behind its thigh, degrees. */
+static double knee_off(const Pose *pose) {
+    double most = 0;
+    for (int side = 0; side < 2; side++) {
+        Role thigh = side ? ROLE_RIGHT_THIGH : ROLE_LEFT_THIGH;
+        Vec3 shin = mat_apply(mat_transpose(pose->bone[thigh].r), mat_column(pose->bone[thigh + 1].r, 1));
+        if (angle(shin, vec(0, 1, 0)) >= 50) most = fmax(most, fabs(atan2(shin.x, shin.z)) / DEGREE);
+    }
+    return most;
+}
+
 typedef struct {
-    double landing, head_below, tilt, shin_behind, shin_aside;
+    double landing, head_below, tilt, shin_behind, shin_aside, knee_off;
     int frames, rotations;
     Vec3 ahead; /* sum of where the pelvis faces */
     Vec3 first, last;
@@ -327,6 +338,7 @@ static void measure_frame(Rig *r, Pose pose, Measures *m) {
         m->shin_behind += shin.z; /* up of a bent shin leans forward in the thigh's frame */
         m->shin_aside += fabs(shin.x);
     }
+    m->knee_off = fmax(m->knee_off, knee_off(&pose));
     if (m->frames++ == 0) m->first = pelvis;
     m->last = pelvis;
     m->ahead = vec_add(m->ahead, mat_column(pose.bone[ROLE_PELVIS].r, 2));
@@ -347,6 +359,7 @@ static void test_real(int i) {
     OK(m.rotations == n * ROLE_COUNT, "%s: every bone moves rigidly", file);
     OK(m.landing < 0.02, "%s: limbs begin at their joints (within %.4f m)", file, m.landing);
     OK(m.shin_behind > 0, "%s: knees bend backwards (%.2f)", file, m.shin_behind / n / 2);
+    OK(m.knee_off < 1, "%s: and behind the thigh when they are bent (%.2f degrees off)", file, m.knee_off);
     if (real[i].habits & STANDS) {
         OK(m.head_below == 0, "%s: the head stays over the pelvis", file);
         OK(m.tilt / n < 19, "%s: the pelvis is upright, mean tilt %.1f degrees", file, m.tilt / n);

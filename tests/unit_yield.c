@@ -131,6 +131,35 @@ static void no_jumps(Scene *s) {
     arena_free(&arena);
 }
 
+/* A knee that folds: thigh and calf end at the plane that halves the bend, with the room for cloth between. */
+static void folds_flat(Scene *s) {
+    for (double bend = 130; bend <= 140; bend += 10) {
+        Pose pose = figure_rest_pose();
+        scene_leg(s, &pose, true, 100, bend);
+        body_frame_pose(&s->posed, &pose);
+        Vec3 knee = rigid_apply(pose.bone[ROLE_LEFT_SHIN], s->figure.start[ROLE_LEFT_SHIN]);
+        int flat = 0;
+        double least = INFINITY;
+        for (int side = 0; side < 2; side++) {
+            Role role = side ? ROLE_LEFT_SHIN : ROLE_LEFT_THIGH;
+            Vec3 along = mat_column(pose.bone[role].r, 1), up = mat_column(pose.bone[ROLE_LEFT_THIGH].r, 1);
+            Vec3 down = vec_scale(mat_column(pose.bone[ROLE_LEFT_SHIN].r, 1), -1);
+            Vec3 across = vec_unit_or(side ? vec_sub(down, up) : vec_sub(up, down), along);
+            Vec3 inwards = vec_unit_or(vec_add(up, down), along);
+            const BodyPart *part = &s->body.part[part_of(s, role)];
+            for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++) {
+                Vec3 r = vec_sub(s->posed.position[v], knee), plain = rigid_apply(pose.bone[role], s->body.skin.position[v]);
+                double in = vec_dot(r, inwards);
+                if (in < 0.075 || in > 0.12 || vec_dist(plain, s->posed.position[v]) < 0.002) continue;
+                flat++;
+                least = fmin(least, vec_dot(r, across));
+            }
+        }
+        OK(flat > 10 && least > 0.5 * YIELD_ROOM - 1e-3, "a knee bent by %.0f: %d vertices %.2f mm before the plane",
+           bend, flat, 1e3 * least);
+    }
+}
+
 int main(void) {
     Scene s;
     scene_open(&s, "skirt");
@@ -139,6 +168,7 @@ int main(void) {
     room_is_made(&s);
     skin_is_the_surface(&s);
     no_jumps(&s);
+    folds_flat(&s);
     arena_free(&s.arena);
     return tap_done();
 }

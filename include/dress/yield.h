@@ -5,12 +5,22 @@
 
 #include "figure/body.h"
 
+/* The inside of a bent knee or elbow, where the flesh of both bones is pressed flat along the plane that halves
+   the bend. World frame, metres. */
+typedef struct {
+    Vec3 centre;     /* of the joint */
+    Vec3 inwards;    /* unit: from the joint into the fold */
+    Vec3 across;     /* unit: normal of the plane, towards the part that gives way */
+    double bottom;   /* how far from the joint along `inwards` the fold begins; 0: there is none */
+} Fold;
+
 /* One part that presses on another. */
 typedef struct {
     int other;       /* part that it gives way to */
     double share;    /* of the room that is missing, which this part makes */
     double most;     /* it gives way no farther, metres */
     bool folds;      /* they meet at a joint: it gives way only where their surfaces face each other */
+    Fold fold;       /* of the two bones of a limb */
 } Contact;
 
 /* Parts that are pressed by more others give way to the first of them. */
@@ -24,10 +34,17 @@ bool yield_concerns(Role a, Role b);
 /* The two sides of a contact of roles a and b on a body of `scale` x 1.70 m. */
 void yield_contact(Role a, Role b, double scale, Contact *of_a, Contact *of_b);
 
-/* How far a part that is `distance` from a point, with unit normal *normal there, gives way to one
-   that is `other` away with unit normal `away`: metres, >= 0, to be added to the distance. *normal
-   becomes that of the sum. `scale` as above. */
-double yield_by(const Contact *c, double scale, double distance, double other, Vec3 away, Vec3 *normal);
+/* Are they the two bones of a limb, the upper first, that fold at knee or elbow? */
+bool yield_hinges(Role upper, Role lower);
+
+/* The fold of such a contact: joint at `centre`, unit directions from there up one bone and down the other,
+   and the radius of the limb at the joint, metres. */
+void yield_fold(Vec3 centre, Vec3 up, Vec3 down, double radius, Contact *upper, Contact *lower);
+
+/* How far a part that is `distance` from p, with unit normal *normal there, gives way to one that is `other`
+   away with unit normal `away`: metres, >= 0, to be added to the distance. *normal becomes that of the
+   sum. `scale` as above. */
+double yield_by(const Contact *c, double scale, Vec3 p, double distance, double other, Vec3 away, Vec3 *normal);
 
 /* The room that parts leave between them, metres on 1.70 m: two layers of cloth, a sleeve and the side
    of a shirt or two legs of trousers, that keep their margin, with what facets need for being flat. */

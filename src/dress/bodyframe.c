@@ -51,7 +51,7 @@ static double give_way(const BodyFrame *f, int part, Vec3 p, double distance, Ve
         Vec3 away, turned = mine;
         double other = own_distance(f, contacts->contact[k].other, p, far, &away);
         if (other >= far) continue;
-        double by = yield_by(&contacts->contact[k], scale_of(f), distance, other, away, &turned);
+        double by = yield_by(&contacts->contact[k], scale_of(f), p, distance, other, away, &turned);
         if (by <= most) continue;
         most = by;
         *normal = turned;
@@ -121,6 +121,15 @@ static bool boxes_near(Box a, Box b, double room) {
     return box_touches((Box){vec_sub(a.low, grown), vec_add(a.high, grown)}, b);
 }
 
+/* The fold between two bones of a limb. */
+static void find_fold(const BodyFrame *f, int upper, int lower, Contact *of_upper, Contact *of_lower) {
+    const BodyPart *part = &f->body->part[lower];
+    Vec3 joint = rigid_apply(f->pose.bone[part->role], part->frame.t);
+    Vec3 up = vec_scale(mat_column(f->to_world[upper], 1), -1), down = mat_column(f->to_world[lower], 1);
+    Section s = body_section_at(part, 0, NULL);
+    yield_fold(joint, up, down, fmax(s.front, s.back), of_upper, of_lower);
+}
+
 static void find_contacts(BodyFrame *f) {
     const Body *body = f->body;
     for (int p = 0; p < body->nparts; p++) f->contacts[p].n = 0;
@@ -132,6 +141,7 @@ static void find_contacts(BodyFrame *f) {
                 !boxes_near(f->box[a], f->box[b], YIELD_ROOM * scale_of(f)) || !(is_near(f, a, b) || is_near(f, b, a)))
                 continue;
             yield_contact(of_a, of_b, scale_of(f), &ca->contact[ca->n], &cb->contact[cb->n]);
+            if (yield_hinges(of_a, of_b)) find_fold(f, a, b, &ca->contact[ca->n], &cb->contact[cb->n]);
             ca->contact[ca->n++].other = b;
             cb->contact[cb->n++].other = a;
         }
@@ -140,7 +150,7 @@ static void find_contacts(BodyFrame *f) {
 /* How far a point of a part's skin goes inwards along its normal until what the part gives way there
    is made up for: the first such place, by steps, bisection and a chord. *n becomes the normal there. */
 static double way_in(const BodyFrame *f, int p, Vec3 skin, double most, Vec3 *n) {
-    enum { STEPS = 6, HALVINGS = 4 };
+    enum { STEPS = 8, HALVINGS = 4 };
     Vec3 inwards = vec_scale(*n, -1);
     double level = own_distance(f, p, skin, INFINITY, n);
     double out = 0, in = 0, before = level + give_way(f, p, skin, level, n) - level, here = before;
@@ -161,22 +171,21 @@ static double way_in(const BodyFrame *f, int p, Vec3 skin, double most, Vec3 *n)
     return out + (in - out) * before / (before - here);
 }
 
-/* May any part that this one gives way to be near p at all? */
-static bool may_be_pressed(const BodyFrame *f, int part, Vec3 p) {
+/* The most that a part may give way at p: 0 where none of those that press on it can be near. */
+static double most_at(const BodyFrame *f, int part, Vec3 p) {
     const Contacts *contacts = &f->contacts[part];
-    double room = YIELD_ROOM * scale_of(f);
+    double room = YIELD_ROOM * scale_of(f), most = 0;
     for (int k = 0; k < contacts->n; k++)
-        if (!body_frame_far(f, contacts->contact[k].other, p, room)) return true;
-    return false;
+        if (!body_frame_far(f, contacts->contact[k].other, p, room)) most = fmax(most, contacts->contact[k].most);
+    return most;
 }
 
 /* Moves the skin of a part to where it has given way; never farther than the most that it gives. */
 static void yield_skin(BodyFrame *f, int p) {
     const BodyPart *part = &f->body->part[p];
-    double most = 0;
-    for (int k = 0; k < f->contacts[p].n; k++) most = fmax(most, f->contacts[p].contact[k].most);
     for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++) {
-        if (!may_be_pressed(f, p, f->position[v])) continue;
+        double most = most_at(f, p, f->position[v]);
+        if (most == 0) continue;
         Vec3 n = f->normal[v];
         double way = way_in(f, p, f->position[v], most, &n);
         if (way <= 0) continue;

@@ -189,13 +189,16 @@ static double room_for(const BodyFrame *body, unsigned near, unsigned worn, int 
     return opposite & worn && !(part_bit(body, part) & worn) ? distance : clearance;
 }
 
-/* The side of a part that the place is worn over on which it belongs: where it was in the bind pose, as
-   seen from the part's axis. Unit; world of this pose. */
-static Vec3 side_at_rest(const Push *p, const BodyFrame *body, int place, int part) {
+/* The side of a part on which a place that lies along it belongs: where it was in the bind pose, as seen from
+   the part's axis. Unit; world of this pose. False where the place lies beyond the part's ends: past a bent
+   joint such a side means nothing. */
+static bool side_at_rest(const Push *p, const BodyFrame *body, int place, int part, Vec3 *side) {
     const BodyPart *b = &body->body->part[part];
     Vec3 q = rigid_unapply(b->frame, p->rest[place]);
+    if (q.y < 0 || q.y > b->length) return false;
     Section c = body_section_at(b, q.y, NULL);
-    return mat_apply(body->to_world[part], vec_unit_or(vec(q.x - c.x, 0, q.z - c.z), vec(1, 0, 0)));
+    *side = mat_apply(body->to_world[part], vec_unit_or(vec(q.x - c.x, 0, q.z - c.z), vec(1, 0, 0)));
+    return true;
 }
 
 /* A foot stands across the leg of trousers: it has no side along it. */
@@ -208,8 +211,8 @@ static bool has_side(Role role) {
    never out of the garment. Returns whether it has changed. */
 static bool turn_inside(const Push *p, const BodyFrame *body, int place, int part, Vec3 *n) {
     if (p->lattice->collide[place] & part_bit(body, part)) {
-        if (!has_side(body->body->part[part].role)) return false;
-        Vec3 side = side_at_rest(p, body, place, part);
+        Vec3 side;
+        if (!has_side(body->body->part[part].role) || !side_at_rest(p, body, place, part, &side)) return false;
         double turn = 2 * (1 - smoothstep(-WRONG_SIDE, WRONG_SIDE, vec_dot(*n, side)));
         if (turn > 0) *n = vec_unit_or(vec_mad(*n, side, turn), side);
         return turn > 0;

@@ -56,7 +56,39 @@ void yield_contact(Role a, Role b, double scale, Contact *of_a, Contact *of_b) {
     *of_b = (Contact){.share = 1 - of_a->share, .most = soft_b * scale, .folds = of_a->folds};
 }
 
-double yield_by(const Contact *c, double scale, double distance, double other, Vec3 away, Vec3 *normal) {
+bool yield_hinges(Role upper, Role lower) { return is_upper(upper) && lower == upper + 1; }
+
+void yield_fold(Vec3 centre, Vec3 up, Vec3 down, double radius, Contact *upper, Contact *lower) {
+    static const double OPEN = 40 * PI / 180, FOLDED = 80 * PI / 180; /* bends of the joint */
+    static const double BEYOND = 1.5; /* radii: an open joint has no fold, its skin does not reach that far in */
+    static const double GIVES = 0.8;  /* of the radius: there is a bone in it */
+    double bend = atan2(vec_len(vec_cross(up, down)), -vec_dot(up, down));
+    upper->fold = (Fold){.centre = centre, .across = vec_unit_or(vec_sub(up, down), up)};
+    upper->fold.inwards = vec_unit_or(vec_add(up, down), vec(0, 0, 0));
+    if (bend > OPEN) upper->fold.bottom = radius * (BEYOND + (1 - BEYOND) * smoothstep(OPEN, FOLDED, bend));
+    lower->fold = upper->fold;
+    lower->fold.across = vec_scale(upper->fold.across, -1);
+    upper->most = fmax(upper->most, GIVES * radius);
+    lower->most = fmax(lower->most, GIVES * radius);
+}
+
+/* In a fold a part ends at the plane that halves the bend, half the room before it; towards the joint, where
+   both bones are one, the wall falls away steeply. It ends there only where the other is near. */
+static double yield_in_fold(const Contact *c, double scale, Vec3 p, double distance, double other, Vec3 away,
+                            Vec3 *normal) {
+    static const double STEEP = 3;
+    const Fold *fold = &c->fold;
+    Vec3 r = vec_sub(p, fold->centre), floor = vec_unit_or(vec_mad(fold->across, fold->inwards, -STEEP), fold->across);
+    double half = 0.5 * YIELD_ROOM * scale, near = YIELD_ROOM * scale - other;
+    double wall = half - vec_dot(r, fold->across);
+    double below = half * vec_dot(floor, fold->across) - vec_dot(vec_mad(r, fold->inwards, -fold->bottom), floor);
+    double least = fmin(fmin(wall, below), near);
+    if (least <= distance) return 0;
+    *normal = vec_scale(least == near ? away : least == wall ? fold->across : floor, -1);
+    return fmin(least - distance, c->most);
+}
+
+static double yield_by_share(const Contact *c, double scale, double distance, double other, Vec3 away, Vec3 *normal) {
     static const double FACING = 0.6; /* cosine between a normal and the other's opposite: folded, all of the way */
     double lacking = YIELD_ROOM * scale - distance - other, share = c->share;
     if (lacking <= 0) return 0;
@@ -64,4 +96,12 @@ double yield_by(const Contact *c, double scale, double distance, double other, V
     if (share * lacking >= c->most) return c->most;
     *normal = vec_unit_or(vec_sub(vec_scale(*normal, 1 - share), vec_scale(away, share)), *normal);
     return share * lacking;
+}
+
+double yield_by(const Contact *c, double scale, Vec3 p, double distance, double other, Vec3 away, Vec3 *normal) {
+    Vec3 shared = *normal, folded = *normal;
+    double by = yield_by_share(c, scale, distance, other, away, &shared);
+    double in_fold = c->fold.bottom > 0 ? yield_in_fold(c, scale, p, distance, other, away, &folded) : 0;
+    *normal = in_fold > by ? folded : shared;
+    return fmax(by, in_fold);
 }
