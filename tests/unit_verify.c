@@ -240,6 +240,15 @@ static void test_border(void) {
     m = sheet(40, 0.0005, 0.01);
     OK(border(&m).ncracks == 0, "a border of 0.5 mm edges is near itself along the border, no crack");
 
+    m = sheet(10, 0.02, 0.001);
+    for (int v = 0; v < m.nvertices; v++) { /* the halves upright, back to back: now their borders are two hems */
+        double x = m.position[v].x - 0.1;
+        m.position[v].z = fabs(x);
+        m.position[v].x = x > 0 ? 0.001 : 0;
+    }
+    b = border(&m);
+    OK(b.pieces == 2 && b.ncracks == 0, "two hems that touch are no crack (%d)", b.ncracks);
+
     m = empty(); /* one square of two triangles beside one whose side has a vertex in the middle */
     put(&m, 0, 0, 0), put(&m, 1, 0, 0), put(&m, 0, 1, 0), put(&m, 1, 1, 0), put(&m, 2, 0.5, 0), put(&m, 1, 0.5, 0);
     face(&m, 0, 1, 2), face(&m, 1, 3, 2), face(&m, 1, 4, 5), face(&m, 5, 4, 3);

@@ -1,6 +1,7 @@
 /* A border that comes near itself is either folded narrowly, then the way along it is not much
    longer than the way across, or it is the lip of a crack, whose other lip is far along the
-   border or on another piece of it. */
+   border or on another piece of it, with the cloth on the other side: where it is on the same side, two
+   hems touch, as those of trousers do when feet stand close. */
 #include "dress/border.h"
 
 #include "geometry/boxtree.h"
@@ -9,6 +10,8 @@
 
 /* Up to so many times the distance across, the way along is that of a corner or a narrow fold. */
 static const double FOLD = 6;
+/* Cosine between the directions into the cloth above which it is on the same side of both borders. */
+static const double SAME_SIDE = 0.5;
 
 typedef struct {
     const Mesh *mesh;
@@ -17,8 +20,25 @@ typedef struct {
     Triangle *flat; /* the same as collapsed triangles, for the tree */
     int *degree;    /* per vertex: edges of the border there */
     int (*at)[2];   /* per vertex: the first two of them */
+    Vec3 *inward;   /* per edge: square to it, into its triangle; unit */
     BoxTree tree;
 } Rim;
+
+/* Of the corners of its triangle only one is not on the line of a side. */
+static Vec3 inward(const Mesh *mesh, const Side *side) {
+    const int *v = mesh->triangle[side->triangle].v;
+    Vec3 a = mesh->position[side->low], sum = {0, 0, 0}, none = {0, 0, 0};
+    Vec3 along = vec_unit_or(vec_sub(mesh->position[side->high], a), none);
+    for (int k = 0; k < 3; k++) sum = vec_add(sum, vec_sub(mesh->position[v[k]], a));
+    return vec_unit_or(vec_mad(sum, along, -vec_dot(sum, along)), none);
+}
+
+/* Is the cloth on the same side of the border at a vertex as at edge k? */
+static bool is_same_side(const Rim *r, int vertex, int k) {
+    Vec3 sum = r->inward[r->at[vertex][0]];
+    if (r->degree[vertex] > 1) sum = vec_add(sum, r->inward[r->at[vertex][1]]);
+    return vec_dot(vec_unit_or(sum, sum), r->inward[k]) > SAME_SIDE;
+}
 
 static bool find_rim(Rim *r, Arena *arena, int *pieces, Error *e) {
     Topology t;
@@ -29,13 +49,15 @@ static bool find_rim(Rim *r, Arena *arena, int *pieces, Error *e) {
     r->flat = ARENA_NEW(arena, Triangle, t.nsides, e);
     r->degree = ARENA_NEW(arena, int, n, e);
     r->at = arena_array(arena, (size_t)n, sizeof *r->at, e);
-    if (!r->edge || !r->flat || !r->degree || !r->at) return false;
+    r->inward = ARENA_NEW(arena, Vec3, t.nsides, e);
+    if (!r->edge || !r->flat || !r->degree || !r->at || !r->inward) return false;
     for (int i = 0, run; i < t.nsides; i += run) {
         run = topology_run(&t, i);
         if (run > 1) continue;
         int end[2] = {t.side[i].low, t.side[i].high};
         r->edge[r->n] = (Edge){{end[0], end[1]}};
         r->flat[r->n] = (Triangle){{end[0], end[1], end[1]}};
+        r->inward[r->n] = inward(r->mesh, &t.side[i]);
         for (int k = 0; k < 2; k++)
             if (r->degree[end[k]]++ < 2) r->at[end[k]][r->degree[end[k]] - 1] = r->n;
         sets_join(&sets, end[0], end[1], false);
@@ -78,7 +100,7 @@ static double crack_width(const Rim *r, int vertex, double reach, bool *found) {
         Vec3 point = boxtree_triangle_point(p, a, b, b);
         double d = vec_dist(p, point);
         if (edge.v[0] == vertex || edge.v[1] == vertex || d > reach) continue;
-        if (is_near_along(r, vertex, k, point, FOLD * d)) continue;
+        if (is_same_side(r, vertex, k) || is_near_along(r, vertex, k, point, FOLD * d)) continue;
         *found = true;
         reach = d;
     }
