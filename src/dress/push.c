@@ -21,7 +21,8 @@ static const double BUDGET = 0.02;     /* a sample may issue twice its first vio
 static const double HEADWAY = 0.6;     /* pushes that get this share of their length nowhere are a pinch */
 static const double OPPOSITE = -0.2;   /* cosine: normals of parts between which cloth is squeezed */
 static const double WRONG_SIDE = 0.5;  /* cosine to the side at rest below which the normal is bent towards it */
-static const double OUTWARDS = 0.3;    /* cosine: limbs from outside do not push cloth this much out of itself */
+static const double OUTWARDS = 0.3;    /* cosine: a limb from outside that would push cloth this much out of itself
+                                          pushes it straight in */
 static const double RAISE_MAX = 0.015; /* most extra clearance */
 static const double OFFSET_MAX = 0.03; /* of a single vertex: more would be a spike */
 
@@ -208,7 +209,8 @@ static bool has_side(Role role) {
 
 /* The nearest way out of a limb that lies across the cloth may lead to its other side. *n, the normal of
    the part at a place: bent towards the side where the place belongs; for a part that comes from outside
-   never out of the garment. Returns whether it has changed. */
+   into the garment, the more the less it leads there, so that an arm that sweeps through does not throw
+   cloth to one side and then to the other. Returns whether it has changed. */
 static bool turn_inside(const Push *p, const BodyFrame *body, int place, int part, Vec3 *n) {
     if (p->lattice->collide[place] & part_bit(body, part)) {
         Vec3 side;
@@ -218,9 +220,9 @@ static bool turn_inside(const Push *p, const BodyFrame *body, int place, int par
         return turn > 0;
     }
     Vec3 outwards = field_normal(&p->field, p->root, 0, place);
-    if (vec_dot(*n, outwards) <= OUTWARDS) return false;
-    *n = vec_scale(outwards, -1);
-    return true;
+    double turn = smoothstep(-1, OUTWARDS, vec_dot(*n, outwards));
+    *n = vec_unit_or(vec_mad(vec_scale(*n, 1 - turn), outwards, -turn), vec_scale(outwards, -1));
+    return turn > 0;
 }
 
 /* How far x must go along *n, the outward normal, to be `wanted` away from a part that is
