@@ -148,6 +148,10 @@ stages() {
          END { d = sum - whole; exit !(whole > 0 && d < 0.01 && d > -0.01) }' err
 }
 ok '--verbose prints stages that add up to the whole' stages
+# Waiting is no work: no more than all threads have had.
+"$KITSUKE" dress "$walk" -g "$skirt" -g "$root/garments/trousers.garment" -o j -f --frames 1:8 -j 3 -v 2>err
+worked() { awk '/together/ { if ($2 <= 3 * $8 + 0.003) good = 1 } END { exit !good }' err && stages; }
+ok 'and on three threads to no more than they had' worked
 "$KITSUKE" dress "$walk" -g "$skirt" -o j -f --frames 1:3 --progress always 2>err
 like '--progress always draws a line' "$(tr '\r' '\n' <err)" '^.\[J[01]/1 motions, [0-9]+ frames/s'
 "$KITSUKE" dress "$walk" -g "$skirt" -o j -f --frames 1:3 2>err

@@ -106,6 +106,11 @@ is 'and no folder' "$(ls many/a)" "$(printf 'short\nwalk')"
 must_fail 3 batch -o threads -j 4 >log
 ok 'four threads write the same bytes' diff -r many threads
 same 'and say the same' err many.err
+wardrobe() { "$KITSUKE" dress -q in/a/walk.bvh -g "$skirt" -g "$trousers" -g "$root/garments/tshirt.garment" \
+    --frames 1:12 --no-times --format obj,drc -o "$1" -j "$2"; }
+ok 'three garments on one thread' wardrobe worn1 1
+ok 'on five' wardrobe worn5 5
+ok 'the same bytes' diff -r worn1 worn5
 ok 'a folder without motions: exit 3' must_fail 3 dress in/empty -g "$skirt" -o empty
 cp "$walk" in/a/walk.amc
 dress in/a/walk.bvh in/b/walk.BVH in/a/walk.amc -g "$skirt" -o names --frames 1:1 --no-body --format none
