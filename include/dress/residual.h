@@ -4,16 +4,32 @@
 
 #include "dress/bodyframe.h"
 
-/* A garment mesh in output units, boxed for tests against the body, and room for what is found. */
+/* Edges and triangles of a garment, boxed. */
 typedef struct {
-    CrossingSet edges, triangles;
     const Edge *edge;
     const Triangle *triangle;
+    int nedges, ntriangles;
+    CrossingSet edges, triangles;
+} TesterCloth;
+
+/* An edge (n = 2) or triangle of the garment that crosses the body. */
+typedef struct { int n, v[3]; } TesterHit;
+
+/* A garment mesh in output units, boxed for tests against the body, and room for what is found. */
+typedef struct {
     unsigned own;         /* parts (bits 1 << role) that the garment is worn over */
-    Crossing *found;
-    int capacity;
-    Box *block;           /* private: boxes round the vertices */
     int *bad, nbad;       /* vertices that must not be where they are, in the order found */
+    TesterCloth all;      /* private, as is what follows */
+    bool is_stale;        /* its boxes are those of an earlier shape */
+    Vec3 *position;
+    TesterCloth some;     /* those with a vertex that moves */
+    Edge *some_edge;
+    Triangle *some_triangle;
+    bool *moves;          /* per vertex */
+    Crossing *found;
+    TesterHit *hit;
+    int nhits;
+    Box *block;           /* boxes round the vertices */
 } Tester;
 
 typedef struct {
@@ -27,13 +43,19 @@ typedef struct {
 MUST_CHECK bool tester_reserve(Tester *t, int edges, int triangles, Arena *arena, Error *e);
 
 /* Boxes the mesh; all arrays must stay until the last test. own: see Tester. */
-void tester_build(Tester *t, const Vec3 *position, const Edge *edge, int nedges, const Triangle *triangle,
-                  int ntriangles, unsigned own);
+void tester_build(Tester *t, Vec3 *position, const Edge *edge, int nedges, const Triangle *triangle, int ntriangles,
+                  unsigned own);
 
 /* Counts the crossings with the parts in `parts` (bits 1 << role): *own those with parts that the
    garment is worn over, *other the rest. Appends their garment vertices to t->bad. */
 void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other,
                   CrossingCount *count);
+
+/* Moves n vertices of the mesh: vertex[k] to to[k]. In *own, *other and *count stands what tester_cross, called
+   once since the mesh was built, has counted with the same parts; what changes is counted anew, so that they
+   and t->bad are as if the mesh were built and tested again. */
+void tester_move(Tester *t, const BodyFrame *body, unsigned parts, const int *vertex, const Vec3 *to, int n,
+                 Residual *own, Residual *other, CrossingCount *count);
 
 /* Counts the vertices inside any part, and appends them to t->bad. clear, if not NULL: per vertex the parts (bits
    1 << role) that it is known to be outside of. */

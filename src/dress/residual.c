@@ -1,52 +1,142 @@
 /* The last word on a frame: body edges through the cloth, cloth edges through the body, and cloth
-   vertices inside it, part by part, so that what is found can be named. */
+   vertices inside it, part by part, so that what is found can be named.
+
+   While single vertices give way the mesh is tested again and again. Then only what hangs on them is
+   looked at: what was counted of their edges and triangles is taken back, and counted where they are now. */
 #include "dress/residual.h"
 
 #include "geometry/boxtree.h"
 
-enum { FOUND_MAX = 1 << 14, BLOCK = 16 /* vertices that share a box */ };
+enum { FOUND_MAX = 1 << 14, BAD_MAX = 3 * FOUND_MAX, HITS_MAX = BAD_MAX / 2, BLOCK = 16 /* vertices that share a box */ };
+
+static bool reserve_sets(TesterCloth *c, int edges, int triangles, Arena *arena, Error *e) {
+    return crossing_reserve(&c->edges, edges, arena, e) && crossing_reserve(&c->triangles, triangles, arena, e);
+}
 
 bool tester_reserve(Tester *t, int edges, int triangles, Arena *arena, Error *e) {
-    t->capacity = FOUND_MAX;
-    t->found = ARENA_NEW(arena, Crossing, t->capacity, e);
-    t->bad = ARENA_NEW(arena, int, 3 * t->capacity, e);
+    t->found = ARENA_NEW(arena, Crossing, FOUND_MAX, e);
+    t->hit = ARENA_NEW(arena, TesterHit, HITS_MAX, e);
+    t->bad = ARENA_NEW(arena, int, BAD_MAX, e);
     t->block = ARENA_NEW(arena, Box, edges / BLOCK + 1, e); /* a mesh has more edges than vertices */
-    return t->found && t->bad && t->block && crossing_reserve(&t->edges, edges, arena, e) &&
-           crossing_reserve(&t->triangles, triangles, arena, e);
+    t->moves = ARENA_NEW(arena, bool, edges, e);
+    t->some_edge = ARENA_NEW(arena, Edge, edges, e);
+    t->some_triangle = ARENA_NEW(arena, Triangle, triangles, e);
+    return t->found && t->hit && t->bad && t->block && t->moves && t->some_edge && t->some_triangle &&
+           reserve_sets(&t->all, edges, triangles, arena, e) && reserve_sets(&t->some, edges, triangles, arena, e);
 }
 
-void tester_build(Tester *t, const Vec3 *position, const Edge *edge, int nedges, const Triangle *triangle,
-                  int ntriangles, unsigned own) {
-    t->edge = edge;
-    t->triangle = triangle;
+static void box(TesterCloth *c, const Vec3 *position) {
+    crossing_build_edges(&c->edges, position, c->edge, c->nedges);
+    crossing_build_triangles(&c->triangles, position, c->triangle, c->ntriangles);
+}
+
+void tester_build(Tester *t, Vec3 *position, const Edge *edge, int nedges, const Triangle *triangle, int ntriangles,
+                  unsigned own) {
+    t->all.edge = edge;
+    t->all.nedges = nedges;
+    t->all.triangle = triangle;
+    t->all.ntriangles = ntriangles;
+    t->position = position;
     t->own = own;
-    t->nbad = 0;
-    crossing_build_edges(&t->edges, position, edge, nedges);
-    crossing_build_triangles(&t->triangles, position, triangle, ntriangles);
+    t->nbad = t->nhits = 0;
+    t->is_stale = false;
+    box(&t->all, position);
 }
 
-/* Appends the garment's corners of the listed pairs to the vertices that must not be where they are. */
-static void add_bad(Tester *t, bool is_triangle, int listed) {
-    for (int k = 0; k < listed; k++) {
-        const int *v = is_triangle ? t->triangle[t->found[k].triangle].v : t->edge[t->found[k].edge].v;
-        for (int c = 0; c < (is_triangle ? 3 : 2) && t->nbad < 3 * t->capacity; c++) t->bad[t->nbad++] = v[c];
+static void add_bad(Tester *t, const int *v, int n) {
+    for (int c = 0; c < n && t->nbad < BAD_MAX; c++) t->bad[t->nbad++] = v[c];
+}
+
+/* Edges (corners = 2) or triangles of the cloth that were found, to the hits and their vertices to the bad. */
+static void add_hits(Tester *t, const TesterCloth *c, int corners, int found) {
+    for (int k = 0; k < found && t->nhits < HITS_MAX; k++) {
+        const int *v = corners == 3 ? c->triangle[t->found[k].triangle].v : c->edge[t->found[k].edge].v;
+        TesterHit *hit = &t->hit[t->nhits++];
+        *hit = (TesterHit){corners, {v[0], v[1], corners == 3 ? v[2] : -1}};
+        add_bad(t, hit->v, hit->n);
     }
 }
 
-void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other,
-                  CrossingCount *count) {
+static void cross(Tester *t, const TesterCloth *c, const BodyFrame *body, unsigned parts, Residual *own,
+                  Residual *other, CrossingCount *count) {
     for (int p = 0; p < body->body->nparts; p++) {
         unsigned bit = part_bit(body, p);
         if (!(parts & bit)) continue;
         Residual *r = t->own & bit ? own : other;
         int before = count->hits;
-        add_bad(t, true, crossing_find(&body->edges[p], &t->triangles, t->found, t->capacity, count));
+        add_hits(t, c, 3, crossing_find(&body->edges[p], &c->triangles, t->found, FOUND_MAX, count));
         r->edges += count->hits - before;
         before = count->hits;
-        add_bad(t, false, crossing_find(&t->edges, &body->triangles[p], t->found, t->capacity, count));
+        add_hits(t, c, 2, crossing_find(&c->edges, &body->triangles[p], t->found, FOUND_MAX, count));
         r->cloth += count->hits - before;
     }
 }
+
+void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other,
+                  CrossingCount *count) {
+    if (t->is_stale) box(&t->all, t->position);
+    t->is_stale = false;
+    cross(t, &t->all, body, parts, own, other, count);
+}
+
+/* --- again, for what has moved --- */
+
+static bool any_moves(const Tester *t, const int *v, int n) {
+    bool any = false;
+    for (int c = 0; c < n; c++) any |= t->moves[v[c]];
+    return any;
+}
+
+static void find_some(Tester *t) {
+    const TesterCloth *all = &t->all;
+    TesterCloth *some = &t->some;
+    some->edge = t->some_edge;
+    some->triangle = t->some_triangle;
+    some->nedges = some->ntriangles = 0;
+    for (int k = 0; k < all->nedges; k++)
+        if (any_moves(t, all->edge[k].v, 2)) t->some_edge[some->nedges++] = all->edge[k];
+    for (int k = 0; k < all->ntriangles; k++)
+        if (any_moves(t, all->triangle[k].v, 3)) t->some_triangle[some->ntriangles++] = all->triangle[k];
+}
+
+/* Counts what those that move cross, where they are now. sign: 1, -1 to take it back. */
+static void count_some(Tester *t, const BodyFrame *body, unsigned parts, int sign, Residual *own, Residual *other,
+                       CrossingCount *count) {
+    Residual mine = {0}, others = {0};
+    CrossingCount c = {0};
+    box(&t->some, t->position);
+    cross(t, &t->some, body, parts, &mine, &others, &c);
+    own->edges += sign * mine.edges;
+    own->cloth += sign * mine.cloth;
+    other->edges += sign * others.edges;
+    other->cloth += sign * others.cloth;
+    count->hits += sign * c.hits;
+    count->pairs_tested += sign * c.pairs_tested;
+}
+
+/* The hits of the others. */
+static void forget_hits(Tester *t) {
+    int n = 0;
+    for (int k = 0; k < t->nhits; k++)
+        if (!any_moves(t, t->hit[k].v, t->hit[k].n)) t->hit[n++] = t->hit[k];
+    t->nhits = n;
+    t->nbad = 0;
+    for (int k = 0; k < n; k++) add_bad(t, t->hit[k].v, t->hit[k].n);
+}
+
+void tester_move(Tester *t, const BodyFrame *body, unsigned parts, const int *vertex, const Vec3 *to, int n,
+                 Residual *own, Residual *other, CrossingCount *count) {
+    for (int k = 0; k < n; k++) t->moves[vertex[k]] = vec_dist(t->position[vertex[k]], to[k]) > 0;
+    find_some(t);
+    count_some(t, body, parts, -1, own, other, count);
+    forget_hits(t);
+    for (int k = 0; k < n; k++) t->position[vertex[k]] = to[k];
+    count_some(t, body, parts, 1, own, other, count);
+    for (int k = 0; k < n; k++) t->moves[vertex[k]] = false;
+    t->is_stale = true;
+}
+
+/* --- inside --- */
 
 /* Boxes in metres round vertices that follow each other, and so lie near each other. */
 static void box_vertices(Tester *t, const Vec3 *position, int n, double to_metres) {
@@ -73,6 +163,6 @@ void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int n
             Residual *r = t->own & part_bit(body, p) ? own : other;
             r->inside++;
             r->deepest = fmax(r->deepest, -d);
-            if (t->nbad < 3 * t->capacity) t->bad[t->nbad++] = v;
+            add_bad(t, &v, 1);
         }
 }

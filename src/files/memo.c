@@ -19,6 +19,7 @@ static bool has_room(Memo *m, size_t size) {
 }
 
 void memo_add(Memo *m, const void *data, size_t size) {
+    if (size == 0) return;
     if (m->size == VOID || size > MEMO_MOST - m->size || !has_room(m, m->size + size)) {
         m->size = VOID;
         return;

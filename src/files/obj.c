@@ -202,10 +202,10 @@ static bool put_parameters_again(ObjWriter *w, const Mesh *mesh, Error *e) {
 }
 
 static bool put_faces_again(ObjWriter *w, const Mesh *mesh, Error *e) {
-    int kind = kind_of(mesh);
+    int shape[] = {kind_of(mesh), mesh->ntriangles, mesh->ncreases, mesh->ngroups};
     memo_begin(&w->memo);
     memo_add(&w->memo, "f", 1);
-    memo_add(&w->memo, &kind, sizeof kind);
+    memo_add(&w->memo, shape, sizeof shape);
     memo_add(&w->memo, mesh->triangle, (size_t)mesh->ntriangles * sizeof(Triangle));
     memo_add(&w->memo, mesh->crease, (size_t)mesh->ncreases * sizeof(Crease));
     for (int g = 0; g < mesh->ngroups; g++) {
