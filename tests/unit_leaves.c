@@ -43,6 +43,30 @@ static Vec3 surface(const Push *p, const Patch *root, int patch, int i, int j) {
     return x;
 }
 
+/* What is found leaf by leaf is what is found vertex by vertex. */
+static void sheet_is_the_surface(const char *name, Push *push, const Leaves *leaves, const Patch *root, Sheet *sheet) {
+    static Vec3 point[1 << 16], field[1 << 16], normal[1 << 16];
+    const Lattice *l = push->lattice;
+    const unsigned levels = (1u << LATTICE_LEVELS) - 1;
+    double worst_field = 0, worst_normal = 0;
+    int moved = 0;
+    tessellate(sheet, leaves);
+    surface_points(&push->surface, sheet, root, point);
+    surface_field(&push->surface, sheet, &push->field, field);
+    surface_normals(&push->surface, sheet, &push->field, root, normal);
+    for (int v = 0; v < sheet->nvertices; v++) {
+        Vec3 p = lattice_point(l, root, sheet->place[v]);
+        moved += memcmp(&p, &point[v], sizeof p) != 0;
+        worst_field = fmax(worst_field, vec_dist(field[v], field_at(&push->field, levels, sheet->place[v])));
+        Vec3 n = field_normal(&push->field, root, levels, sheet->place[v]);
+        worst_normal = fmax(worst_normal, vec_dist(normal[v], n));
+    }
+    OK(moved == 0, "%s: %d vertices on the root patches, %d beside their leaves' grids (%d differ)", name,
+       sheet->nvertices, sheet->nlone, moved);
+    OK(worst_field < 1e-12 && worst_normal < 1e-9, "%s: displacement and normals too (%.2g, %.2g)", name, worst_field,
+       worst_normal);
+}
+
 static void leaves_are_the_surface(const char *name) {
     Scene s;
     Fit fit;
@@ -84,7 +108,7 @@ static void leaves_are_the_surface(const char *name) {
     OK(n >= 25 * leaves_count(&leaves) && worst < 1e-13, "%s: %d leaves are the surface itself (%.1e)", name,
        leaves_count(&leaves), worst);
 
-    tessellate(&sheet, &leaves);
+    sheet_is_the_surface(name, &push, &leaves, root, &sheet);
     Edge *border = ARENA_NEW(&s.arena, Edge, 2 * sheet.nedges, &s.error);
     int *seen = ARENA_NEW(&s.arena, int, sheet.nvertices, &s.error), lost = 0;
     need(&s, border && seen);

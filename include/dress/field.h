@@ -39,6 +39,10 @@ static inline bool field_is_zero(Vec3 d) { return d.x == 0 && d.y == 0 && d.z ==
 /* Outward unit normal of the displaced patches at a place (analytic), or of the root patches where `levels` is 0. */
 Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place);
 
+/* The field of `level` as a patch: over the cell of that level that holds a cell of a deeper one. Returns whether
+   anything is displaced there. */
+bool field_patch(const Field *f, LatticeCell cell, int deeper, int level, Patch *out);
+
 /* The displaced patch over cell (a, b) of a level, a leaf or finer: the part of the root patch and
    the field over it, which is bicubic there. Offsets are left out. */
 Patch field_leaf(const Field *f, const Patch *root, LatticeCell cell, int level);

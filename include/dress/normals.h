@@ -2,7 +2,7 @@
 #ifndef DRESS_NORMALS_H
 #define DRESS_NORMALS_H
 
-#include "dress/field.h"
+#include "dress/surface.h"
 
 /* The corners (3 * triangle + 0..2) of the vertices that need another look; private. */
 typedef struct {
@@ -10,6 +10,7 @@ typedef struct {
     int *next;   /* per corner: the next one of the same vertex */
     int capacity, nextra, ncreases; /* room for either of the two, which are as in Mesh */
     Crease *crease;
+    Surface surface;
 } Normals;
 
 MUST_CHECK bool normals_reserve(Normals *n, const Lattice *lattice, Arena *arena, Error *e);

@@ -4,6 +4,7 @@
 
 #include "dress/field.h"
 #include "dress/near.h"
+#include "dress/surface.h"
 
 /* A mesh vertex near the body, with the level vertices that move it. Private. */
 typedef struct {
@@ -19,6 +20,7 @@ typedef struct {
 /* The displacement and the solver's memory. */
 typedef struct {
     const Lattice *lattice;
+    Surface surface;
     Field field;
     Field kept;                       /* of another attempt, */
     Vec3 *kept_point;                 /* and where it left the vertices */

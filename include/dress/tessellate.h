@@ -10,11 +10,12 @@ typedef struct {
     int nvertices, ntriangles, nedges;
     int *place;              /* vertex -> lattice place */
     int *vertex;             /* lattice place -> vertex, -1 where the mesh has none */
+    int *lone, nlone;        /* vertices that lie between the places of their owner's leaves */
     Triangle *triangle;      /* counter-clockwise from outside; patch by patch */
     int *first_of_patch;     /* npatches + 1: triangles of a patch */
     Edge *edge;
     int *first_edge, *next_edge; /* private: edges by their smaller vertex */
-    unsigned char *laid;     /* private: the leaves that lie there */
+    unsigned char *laid;     /* the leaves that lie there, as in Leaves.level */
 } Sheet;
 
 MUST_CHECK bool sheet_reserve(Sheet *s, const Lattice *lattice, Arena *arena, Error *e);

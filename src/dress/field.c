@@ -105,26 +105,29 @@ Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place)
     return vec_unit_or(l->fit->patch[patch].flip ? vec_scale(n, -1) : n, vec(0, 1, 0));
 }
 
-/* The field of one level over cell (a, b) of a deeper one, as a patch: of the cell of that level
-   that holds it the four corners' vectors, each to its quarter of the control points, then cut. */
-static Patch field_part(const Field *f, LatticeCell cell, int level, int deeper) {
+/* The four corners' vectors, each to its quarter of the control points. */
+bool field_patch(const Field *f, LatticeCell cell, int deeper, int level, Patch *out) {
     int shift = deeper - level, n = (1 << level) + 1, a = cell.a >> shift, b = cell.b >> shift;
     const int *vertex = f->lattice->level[level].vertex;
-    Patch whole;
+    bool any = false;
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++) {
             int v = vertex[(cell.patch * n + a + i / 2) * n + b + j / 2];
-            whole.p[i][j] = f->displacement[f->start[level] + v];
+            out->p[i][j] = f->displacement[f->start[level] + v];
+            any |= !field_is_zero(out->p[i][j]);
         }
-    double size = 1.0 / (1 << shift), u = (cell.a - (a << shift)) * size, w = (cell.b - (b << shift)) * size;
-    return bezier_part(&whole, u, u + size, w, w + size);
+    return any;
 }
 
 Patch field_leaf(const Field *f, const Patch *root, LatticeCell cell, int level) {
     double size = 1.0 / (1 << level), u = cell.a * size, w = cell.b * size;
     Patch leaf = bezier_part(&root[cell.patch], u, u + size, w, w + size);
     for (int l = 0; l <= level; l++) {
-        Patch part = field_part(f, cell, l, level);
+        Patch whole, part;
+        if (!field_patch(f, cell, level, l, &whole)) continue;
+        int shift = level - l, mask = (1 << shift) - 1;
+        double share = 1.0 / (1 << shift), left = (cell.a & mask) * share, top = (cell.b & mask) * share;
+        part = bezier_part(&whole, left, left + share, top, top + share);
         for (int k = 0; k < 16; k++) leaf.p[k / 4][k % 4] = vec_add(leaf.p[k / 4][k % 4], part.p[k / 4][k % 4]);
     }
     return leaf;

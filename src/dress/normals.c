@@ -19,7 +19,7 @@ bool normals_reserve(Normals *n, const Lattice *lattice, Arena *arena, Error *e)
     n->corner = ARENA_NEW(arena, int, lattice->nplaces, e);
     n->next = ARENA_NEW(arena, int, 3 * triangles, e);
     n->crease = ARENA_NEW(arena, Crease, n->capacity, e);
-    return n->corner && n->next && n->crease;
+    return n->corner && n->next && n->crease && surface_reserve(&n->surface, lattice, arena, e);
 }
 
 /* Twice its area long. */
@@ -98,9 +98,8 @@ static int by_corner(const void *a, const void *b) { return ((const Crease *)a)-
 
 void normals_find(Normals *n, const Field *f, const Patch *root, const Sheet *sheet, const Vec3 *position,
                   Vec3 *normal) {
-    unsigned levels = field_levels(f);
     n->nextra = n->ncreases = 0;
-    for (int v = 0; v < sheet->nvertices; v++) normal[v] = field_normal(f, root, levels, sheet->place[v]);
+    surface_normals(&n->surface, sheet, f, root, normal);
     if (!find_bent(n, sheet, position, normal)) return;
     list_corners(n, sheet);
     for (int v = 0; v < sheet->nvertices; v++) {

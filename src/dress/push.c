@@ -28,7 +28,9 @@ static const double OFFSET_MAX = 0.03; /* of a single vertex: more would be a sp
 
 bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     *p = (Push){.lattice = lattice};
-    if (!field_reserve(&p->field, lattice, arena, e) || !field_reserve(&p->kept, lattice, arena, e)) return false;
+    if (!field_reserve(&p->field, lattice, arena, e) || !field_reserve(&p->kept, lattice, arena, e) ||
+        !surface_reserve(&p->surface, lattice, arena, e))
+        return false;
     int places = lattice->nplaces;
     p->active = ARENA_NEW(arena, bool, p->field.start[LATTICE_LEVELS], e);
     p->mobility = ARENA_NEW(arena, double, p->field.start[LATTICE_LEVELS], e);
@@ -80,9 +82,8 @@ static Vec3 displaced(const Push *p, const Sheet *sheet, int vertex, Vec3 d) {
 }
 
 static void find_points(Push *p, const Sheet *sheet) {
-    unsigned levels = field_levels(&p->field);
-    for (int v = 0; v < sheet->nvertices; v++)
-        p->point[v] = displaced(p, sheet, v, field_at(&p->field, levels, sheet->place[v]));
+    surface_field(&p->surface, sheet, &p->field, p->point);
+    for (int v = 0; v < sheet->nvertices; v++) p->point[v] = displaced(p, sheet, v, p->point[v]);
 }
 
 static Vec3 sample_point(const Push *p, const Sheet *sheet, const PushSample *s) {
@@ -349,10 +350,8 @@ void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *s
     p->near_known = false;
     p->root = root;
     find_active(p, leaves);
-    for (int v = 0; v < sheet->nvertices; v++) {
-        p->global[v] = lattice_point(p->lattice, root, sheet->place[v]);
-        p->clearance[v] = PUSH_MARGIN * p->field.scale;
-    }
+    surface_points(&p->surface, sheet, root, p->global);
+    for (int v = 0; v < sheet->nvertices; v++) p->clearance[v] = PUSH_MARGIN * p->field.scale;
 }
 
 void push_rest(Push *p, const Sheet *sheet) {

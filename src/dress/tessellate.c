@@ -13,14 +13,15 @@ bool sheet_reserve(Sheet *s, const Lattice *lattice, Arena *arena, Error *e) {
     *s = (Sheet){.lattice = lattice};
     s->place = ARENA_NEW(arena, int, places, e);
     s->vertex = ARENA_NEW(arena, int, places, e);
+    s->lone = ARENA_NEW(arena, int, places, e);
     s->triangle = ARENA_NEW(arena, Triangle, triangles, e);
     s->first_of_patch = ARENA_NEW(arena, int, lattice->fit->npatches + 1, e);
     s->edge = ARENA_NEW(arena, Edge, 3 * triangles, e);
     s->first_edge = ARENA_NEW(arena, int, places, e);
     s->next_edge = ARENA_NEW(arena, int, 3 * triangles, e);
     s->laid = ARENA_NEW(arena, unsigned char, leaves_size(lattice), e);
-    return s->place && s->vertex && s->triangle && s->first_of_patch && s->edge && s->first_edge && s->next_edge &&
-           s->laid;
+    return s->place && s->vertex && s->lone && s->triangle && s->first_of_patch && s->edge && s->first_edge &&
+           s->next_edge && s->laid;
 }
 
 static int vertex_at(Sheet *s, int patch, int i, int j) {
@@ -90,6 +91,27 @@ static void lay_leaf(Sheet *s, int patch, int i0, int j0, int stride) {
         for (int j = 0; j < n; j++) add_facet(s, patch, i0 + i * stride, j0 + j * stride, stride);
 }
 
+/* Does the vertex stand on the grid of the leaf that its owner has there? One on a border between leaves may stand
+   on that of any of them. */
+static bool on_grid(const Lattice *l, const Leaves *leaves, int place) {
+    int patch, i, j, cells = 1 << l->depth;
+    lattice_owner(l, place, &patch, &i, &j);
+    int x = i / l->detail, y = j / l->detail;
+    for (int k = 0; k < 4; k++) {
+        int a = x - (k / 2 && x * l->detail == i), b = y - (k % 2 && y * l->detail == j);
+        if (a < 0 || b < 0 || a >= cells || b >= cells) continue;
+        int stride = 1 << (l->depth - leaves->level[(patch * cells + a) * cells + b]);
+        if (i % stride == 0 && j % stride == 0) return true;
+    }
+    return false;
+}
+
+static void list_lone(Sheet *s, const Leaves *leaves) {
+    s->nlone = 0;
+    for (int v = 0; v < s->nvertices; v++)
+        if (!on_grid(s->lattice, leaves, s->place[v])) s->lone[s->nlone++] = v;
+}
+
 void tessellate(Sheet *s, const Leaves *leaves) {
     const Lattice *l = s->lattice;
     int cells = 1 << l->depth;
@@ -112,6 +134,7 @@ void tessellate(Sheet *s, const Leaves *leaves) {
         }
     }
     s->first_of_patch[l->fit->npatches] = s->ntriangles;
+    list_lone(s, leaves);
 }
 
 /* Lists the edges along one side of a leaf, `places` lattice steps long, that the mesh has there. */
