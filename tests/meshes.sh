@@ -1,0 +1,53 @@
+#!/bin/sh
+# The written meshes, by verify and by arithmetic of our own: whole but for the garment's openings, and lit
+# from outside in every fold of a squat and a turn.
+. "$(dirname "$0")/lib.sh"
+
+# dark FILE...: what is wrong in OBJ files, in all of them together
+dark() {
+    awk 'FNR == 1 { v = n = 0; delete seen }
+    $1 == "v" { v++; for (k = 1; k < 4; k++) p[v, k] = $(k + 1) }
+    $1 == "vn" { n++; for (k = 1; k < 4; k++) q[n, k] = $(k + 1); long = sqrt($2 * $2 + $3 * $3 + $4 * $4)
+        if (long < 0.9999 || long > 1.0001) print FILENAME ": a normal is not unit" }
+    $1 == "f" {
+        for (k = 1; k < 4; k++) { split($(k + 1), c, "/"); t[k] = c[1]; m[k] = c[3]
+            if (c[1] < 1 || c[1] > v || c[2] != c[1] || c[3] < 1 || c[3] > n) print FILENAME ": no corner: " $0 }
+        low = t[1] < t[2] ? t[1] : t[2]; if (t[3] < low) low = t[3]
+        high = t[1] > t[2] ? t[1] : t[2]; if (t[3] > high) high = t[3]
+        if (seen[low, t[1] + t[2] + t[3] - low - high, high]++) print FILENAME ": twice: " $0
+        for (k = 1; k < 4; k++) { a[k] = p[t[2], k] - p[t[1], k]; b[k] = p[t[3], k] - p[t[1], k] }
+        x = a[2] * b[3] - a[3] * b[2]; y = a[3] * b[1] - a[1] * b[3]; z = a[1] * b[2] - a[2] * b[1]
+        if (x * x + y * y + z * z == 0) print FILENAME ": no area: " $0
+        for (k = 1; k < 4; k++)
+            if (x * q[m[k], 1] + y * q[m[k], 2] + z * q[m[k], 3] <= 0) print FILENAME ": away from: " $0 }' "$@"
+}
+# column NAME: of verify's table, garment by garment, each value once
+column() {
+    awk -F, -v name="$1" '/^#/ { next } !at { while ($++at != name); while ($++by != "garment"); next }
+        !seen[$by, $at]++ { print $by ":" $at }' told | sort | tr '\n' ' '
+}
+
+# What finds nothing must be able to find something.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nvn 0 0 1\nf 1/1/1 2/2/2 3/3/2\n' >planted.obj
+is 'a normal that looks away is found' "$(dark planted.obj)" 'planted.obj: away from: f 1/1/1 2/2/2 3/3/2'
+printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n' >planted.obj
+is 'and a triangle without area' "$(dark planted.obj | head -1)" 'planted.obj: no area: f 1/1/1 2/2/1 3/3/1'
+
+garments=$root/garments
+for topology in adaptive fixed; do
+    for preset in squat turn; do
+        out=$preset-$topology
+        "$KITSUKE" walk --preset $preset -o $preset.bvh
+        ok "$preset, $topology" "$KITSUKE" dress $preset.bvh -g "$garments/skirt.garment" -g "$garments/trousers.garment" \
+            -g "$garments/paper-skirt.garment" -g "$garments/tshirt.garment" -o $out --format obj --topology $topology \
+            --frames 10::40 -q
+        "$KITSUKE" verify $out >told 2>/dev/null
+        is 'no cracks' "$(column cracks)" 'paper-skirt:0 skirt:0 trousers:0 tshirt:0 '
+        is 'as many openings as the garments have' "$(column borders)" 'paper-skirt:2 skirt:2 trousers:3 tshirt:4 '
+    done
+    is "faces of $topology are whole, have an area, and normals on their side" \
+        "$(dark squat-$topology/squat/[pst]*.0050.obj | head -3)" ''
+done
+like 'in folds corners have normals of their own' "$(cat squat-fixed/squat/trousers.0050.obj | awk '
+    $1 == "f" { for (k = 2; k < 5; k++) { split($k, c, "/"); own += c[1] != c[3] } } END { print own + 0 }')" '^[1-9]'
+done_testing
