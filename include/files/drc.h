@@ -15,7 +15,7 @@ typedef struct {
 } DrcOptions;
 
 /* The memory that a sequence of files is encoded with. Clear with {0}; one belongs to one thread. */
-typedef struct { struct DrcKept *kept; } DrcWriter;
+typedef struct { struct DrcKept *kept[4]; /* for each kind of mesh */ } DrcWriter;
 
 #ifdef __cplusplus
 extern "C" {

@@ -7,7 +7,8 @@
 
 #include "geometry/boxtree.h"
 
-enum { FOUND_MAX = 1 << 14, BAD_MAX = 3 * FOUND_MAX, HITS_MAX = BAD_MAX / 2, BLOCK = 16 /* vertices that share a box */ };
+enum { FOUND_MAX = 1 << 14, BAD_MAX = 3 * FOUND_MAX, HITS_MAX = BAD_MAX / 2 };
+enum { BLOCK = 16 }; /* vertices that share a box */
 
 static bool reserve_sets(TesterCloth *c, int edges, int triangles, Arena *arena, Error *e) {
     return crossing_reserve(&c->edges, edges, arena, e) && crossing_reserve(&c->triangles, triangles, arena, e);

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include <draco/compression/decode.h>
-#include <draco/compression/encode.h>
 
+#include "files/drc_encoder.h"
 extern "C" {
 #include "files/drc.h"
 #include "files/output.h"
@@ -28,7 +28,7 @@ static const size_t FILE_LIMIT = size_t(1) << 30;
    Draco needs within one encoding, connectivity included, it takes and gives back itself. */
 struct DrcKept {
     draco::Mesh mesh;
-    draco::Encoder encoder;
+    DrcEncoder encoder;
     draco::EncoderBuffer buffer;
     int attribute[draco::GeometryAttribute::NAMED_ATTRIBUTES_COUNT];
     bool has_normal, has_uv;
@@ -106,20 +106,22 @@ static void set_options(draco::Encoder *encoder, const DrcOptions &o) {
 }
 
 void drc_writer_free(DrcWriter *w) {
-    delete w->kept;
-    w->kept = nullptr;
+    for (DrcKept *&kept : w->kept) {
+        delete kept;
+        kept = nullptr;
+    }
 }
 
 bool drc_write(DrcWriter *w, const char *path, const Mesh *mesh, double unit, const DrcOptions *options,
                long long *bytes, Error *e) try {
     bool has_normal = mesh->normal, has_uv = mesh->u && mesh->w;
-    if (w->kept && (w->kept->has_normal != has_normal || w->kept->has_uv != has_uv)) drc_writer_free(w);
-    if (!w->kept) w->kept = make_kept(has_normal, has_uv);
-    if (!fill(w->kept, mesh, unit, e)) return false;
-    set_options(&w->kept->encoder, *options);
-    draco::EncoderBuffer &buffer = w->kept->buffer;
+    DrcKept *&kept = w->kept[(has_normal ? 1 : 0) + (has_uv ? 2 : 0)];
+    if (!kept) kept = make_kept(has_normal, has_uv);
+    if (!fill(kept, mesh, unit, e)) return false;
+    set_options(&kept->encoder.options(), *options);
+    draco::EncoderBuffer &buffer = kept->buffer;
     buffer.Clear();
-    const draco::Status status = w->kept->encoder.EncodeMeshToBuffer(w->kept->mesh, &buffer);
+    const draco::Status status = kept->encoder.encode(kept->mesh, &buffer);
     if (!status.ok()) return error_set(e, ERR_INTERNAL, "cannot encode '%s': Draco says: %s", path, status.error_msg());
     if (bytes) *bytes = (long long)buffer.size();
     return output_file(path, buffer.data(), buffer.size(), e);
