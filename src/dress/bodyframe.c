@@ -147,28 +147,34 @@ static void find_contacts(BodyFrame *f) {
         }
 }
 
-/* How far a point of a part's skin goes inwards along its normal until what the part gives way there
-   is made up for: the first such place, by steps, bisection and a chord. *n becomes the normal there. */
+/* How far a point of a part's skin goes inwards along its normal until what the part gives way there is made up
+   for: the first such place. *n becomes the normal there. Distances change no faster than the point moves, so a step
+   as long as what is left to make up for does not pass it; where that shrinks more slowly, steps are longer. What has
+   been passed is found by chords, a point that stays their end twice counting half (Illinois). */
 static double way_in(const BodyFrame *f, int p, Vec3 skin, double most, Vec3 *n) {
-    enum { STEPS = 8, HALVINGS = 4 };
+    enum { STEPS = 16 };
+    static const double CLOSE = 1e-6, LONGEST = 2; /* metres; times what is left */
     Vec3 inwards = vec_scale(*n, -1);
     double level = own_distance(f, p, skin, INFINITY, n);
-    double out = 0, in = 0, before = level + give_way(f, p, skin, level, n) - level, here = before;
-    if (before <= 0) return 0;
-    for (int k = 1; here > 0; k++) {
-        if (k > STEPS) return most;
-        out = in;
-        before = here;
-        in = most * k / STEPS;
-        here = body_frame_distance(f, p, vec_mad(skin, inwards, in), INFINITY, n) - level;
+    double out = 0, in = INFINITY, left = give_way(f, p, skin, level, n), over = 0, way = fmin(left, most);
+    for (int k = 0, side = 0; k < STEPS && left > 0; k++) {
+        double gap = body_frame_distance(f, p, vec_mad(skin, inwards, way), INFINITY, n) - level;
+        if (fabs(gap) <= CLOSE || (gap > 0 && way >= most)) break;
+        double shrinks = (left - gap) / (way - out);
+        if (gap > 0) {
+            over *= side > 0 ? 0.5 : 1;
+            out = way;
+            left = gap;
+        } else {
+            left *= side < 0 ? 0.5 : 1;
+            in = way;
+            over = -gap;
+        }
+        side = gap > 0 ? 1 : -1;
+        if (in < INFINITY) way = out + (in - out) * left / (left + over);
+        else way = fmin(most, out + gap * (LONGEST * shrinks > 1 ? fmax(1, 1 / shrinks) : LONGEST));
     }
-    for (int k = 0; k < HALVINGS; k++) {
-        double middle = 0.5 * (out + in);
-        double gap = body_frame_distance(f, p, vec_mad(skin, inwards, middle), INFINITY, n) - level;
-        *(gap > 0 ? &out : &in) = middle;
-        *(gap > 0 ? &before : &here) = gap;
-    }
-    return out + (in - out) * before / (before - here);
+    return way;
 }
 
 /* The most that a part may give way at p: 0 where none of those that press on it can be near. */
