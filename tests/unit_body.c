@@ -210,7 +210,7 @@ static void test_many(const Body *b) {
     enum { N = 500 };
     static const double reaches[] = {0, 0.04, INFINITY};
     unsigned seed = 5;
-    Vec3 p[N];
+    Vec3 p[N], normal[N], up;
     double distance[N];
     for (Vectors v = VECTORS_BEST; v < VECTORS_COUNT; v++) {
         int wrong = 0;
@@ -225,10 +225,11 @@ static void test_many(const Body *b) {
                 p[k] = rigid_apply(part->frame, in_part);
             }
             for (int r = 0; r < 3; r++) {
-                body_distances(part, v, &to_part, p, N, reaches[r], distance);
+                body_distances(part, v, &to_part, p, N, reaches[r], distance, normal);
                 for (int k = 0; k < N; k++) {
-                    double alone = body_distance(part, rigid_apply(to_part, p[k]), reaches[r], NULL);
+                    double alone = body_distance(part, rigid_apply(to_part, p[k]), reaches[r], &up);
                     wrong += distance[k] != fmin(alone, reaches[r]);
+                    wrong += alone < reaches[r] && vec_dist(up, normal[k]) != 0;
                 }
             }
         }

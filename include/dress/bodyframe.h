@@ -32,9 +32,10 @@ void body_frame_pose(BodyFrame *f, const Pose *pose);
 double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal);
 
 /* The same from a part as it is where nothing presses on it: never more than that, and cheaper. For one point and
-   for n. */
+   for n; normal may be NULL. */
 double body_frame_unpressed(const BodyFrame *f, int part, Vec3 p, double far);
-void body_frame_unpressed_many(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance);
+void body_frame_unpressed_many(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance,
+                               Vec3 *normal);
 
 /* Is a world point, or any of n, inside any of `parts` (bits 1 << role)? */
 bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p);

@@ -104,9 +104,9 @@ void body_pose(const Body *b, const Pose *pose, Vec3 *positions, Vec3 *normals);
 double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal);
 
 /* The same for n points that *to_part takes to the part frame, `far` where that is less: to the bit, with any
-   vectors. Points that stand together are the cheapest. */
+   vectors. normal may be NULL; beyond `far` it is undefined. Points that stand together are the cheapest. */
 void body_distances(const BodyPart *part, Vectors vectors, const Rigid *to_part, const Vec3 *p, int n, double far,
-                    double *out);
+                    double *out, Vec3 *normal);
 
 /* Private: the interval between sections that holds y, low <= y <= high: a table look-up and rarely a step or
    two. The poles have no size, so distances are taken BODY_POLE (metres) inside of them; where a normal leans

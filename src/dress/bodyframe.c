@@ -41,22 +41,31 @@ static inline double own_distance(const BodyFrame *f, int part, Vec3 p, double f
 
 static double scale_of(const BodyFrame *f) { return figure_scale(f->body->height); }
 
-/* How far a part gives way at p, `distance` away from it: to the other that asks for most. Farther away
-   than the room that parts leave to each other it is never asked. */
-static double give_way(const BodyFrame *f, int part, Vec3 p, double distance, Vec3 *normal) {
+/* How far a part gives way at a point, and its normal there. */
+typedef struct {
+    double by;
+    Vec3 normal;
+} Way;
+
+/* Takes account of one contact of a part that is `distance` away from p with normal `mine`, and `other` with normal
+   `away` from the other: it gives way to the one that asks for most. */
+static void press(const BodyFrame *f, const Contact *contact, Vec3 p, double distance, Vec3 mine, double other,
+                  Vec3 away, Way *way) {
+    double by = yield_by(contact, scale_of(f), p, distance, other, away, &mine);
+    if (by > way->by) *way = (Way){by, mine};
+}
+
+/* Farther away than the room that parts leave to each other the other is never asked. */
+static Way give_way(const BodyFrame *f, int part, Vec3 p, double distance, Vec3 normal) {
     const Contacts *contacts = &f->contacts[part];
-    Vec3 mine = *normal;
-    double most = 0, far = YIELD_ROOM * scale_of(f) - distance;
+    double far = YIELD_ROOM * scale_of(f) - distance;
+    Way way = {0, normal};
     for (int k = 0; k < contacts->n; k++) {
-        Vec3 away, turned = mine;
+        Vec3 away;
         double other = own_distance(f, contacts->contact[k].other, p, far, &away);
-        if (other >= far) continue;
-        double by = yield_by(&contacts->contact[k], scale_of(f), p, distance, other, away, &turned);
-        if (by <= most) continue;
-        most = by;
-        *normal = turned;
+        if (other < far) press(f, &contacts->contact[k], p, distance, normal, other, away, &way);
     }
-    return most;
+    return way;
 }
 
 double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal) {
@@ -64,17 +73,20 @@ double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec
     Vec3 n;
     double d = own_distance(f, part, p, far, &n);
     if (d >= far) return d;
-    if (d < YIELD_ROOM * scale_of(f)) d += give_way(f, part, p, d, &n);
-    if (normal) *normal = n;
-    return d;
+    Way way = d < YIELD_ROOM * scale_of(f) ? give_way(f, part, p, d, n) : (Way){0, n};
+    if (normal) *normal = way.normal;
+    return d + way.by;
 }
 
 double body_frame_unpressed(const BodyFrame *f, int part, Vec3 p, double far) {
     return own_distance(f, part, p, far, NULL);
 }
 
-void body_frame_unpressed_many(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance) {
-    body_distances(&f->body->part[part], f->vectors, &f->to_part[part], p, n, far, distance);
+void body_frame_unpressed_many(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance,
+                               Vec3 *normal) {
+    body_distances(&f->body->part[part], f->vectors, &f->to_part[part], p, n, far, distance, normal);
+    for (int i = 0; normal && i < n; i++)
+        if (distance[i] < far) normal[i] = mat_apply(f->to_world[part], normal[i]);
 }
 
 bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p) {
@@ -90,7 +102,7 @@ static bool any_inside_part(const BodyFrame *f, int part, const Vec3 *p, int n) 
     int count = 0;
     for (int i = 0; i < n; i++)
         if (!body_frame_far(f, part, p[i], 0)) at[count++] = p[i];
-    if (count > 0) body_frame_unpressed_many(f, part, at, count, 0, distance);
+    if (count > 0) body_frame_unpressed_many(f, part, at, count, 0, distance, NULL);
     for (int i = 0; i < count; i++)
         if (distance[i] < 0 && body_frame_distance(f, part, at[i], 0, NULL) < 0) return true;
     return false;
@@ -147,16 +159,15 @@ static void find_contacts(BodyFrame *f) {
         }
 }
 
-/* How far a point of a part's skin goes inwards along its normal until what the part gives way there is made up
-   for: the first such place. *n becomes the normal there. Distances change no faster than the point moves, so a step
+/* How far a point of a part's skin, `level` away from it, goes inwards along its normal until what the part gives
+   way there is made up for, `left` at the skin itself: the first such place. *n becomes the normal there. Distances change no faster than the point moves, so a step
    as long as what is left to make up for does not pass it; where that shrinks more slowly, steps are longer. What has
    been passed is found by chords, a point that stays their end twice counting half (Illinois). */
-static double way_in(const BodyFrame *f, int p, Vec3 skin, double most, Vec3 *n) {
+static double way_in(const BodyFrame *f, int p, Vec3 skin, double level, double left, double most, Vec3 *n) {
     enum { STEPS = 16 };
     static const double CLOSE = 1e-6, LONGEST = 2; /* metres; times what is left */
     Vec3 inwards = vec_scale(*n, -1);
-    double level = own_distance(f, p, skin, INFINITY, n);
-    double out = 0, in = INFINITY, left = give_way(f, p, skin, level, n), over = 0, way = fmin(left, most);
+    double out = 0, in = INFINITY, over = 0, way = fmin(left, most);
     for (int k = 0, side = 0; k < STEPS && left > 0; k++) {
         double gap = body_frame_distance(f, p, vec_mad(skin, inwards, way), INFINITY, n) - level;
         if (fabs(gap) <= CLOSE || (gap > 0 && way >= most)) break;
@@ -186,17 +197,51 @@ static double most_at(const BodyFrame *f, int part, Vec3 p) {
     return most;
 }
 
+/* Vertices of a part's skin that may be pressed, how far it may give way at most, and how far it does. */
+enum { BLOCK = 16 };
+typedef struct {
+    int n, vertex[BLOCK];
+    Vec3 skin[BLOCK];
+    double most[BLOCK], level[BLOCK];
+    Way way[BLOCK];
+} Pressed;
+
+/* give_way for all of them. */
+static void press_all(const BodyFrame *f, int part, Pressed *s) {
+    const Contacts *contacts = &f->contacts[part];
+    double room = YIELD_ROOM * scale_of(f), other[BLOCK];
+    Vec3 mine[BLOCK], away[BLOCK];
+    body_frame_unpressed_many(f, part, s->skin, s->n, INFINITY, s->level, mine);
+    for (int i = 0; i < s->n; i++) s->way[i] = (Way){0, mine[i]};
+    for (int k = 0; k < contacts->n; k++) {
+        const Contact *contact = &contacts->contact[k];
+        body_frame_unpressed_many(f, contact->other, s->skin, s->n, room, other, away);
+        for (int i = 0; i < s->n; i++)
+            if (other[i] < room) press(f, contact, s->skin[i], s->level[i], mine[i], other[i], away[i], &s->way[i]);
+    }
+}
+
 /* Moves the skin of a part to where it has given way; never farther than the most that it gives. */
 static void yield_skin(BodyFrame *f, int p) {
     const BodyPart *part = &f->body->part[p];
-    for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++) {
-        double most = most_at(f, p, f->position[v]);
-        if (most == 0) continue;
-        Vec3 n = f->normal[v];
-        double way = way_in(f, p, f->position[v], most, &n);
-        if (way <= 0) continue;
-        f->position[v] = vec_mad(f->position[v], f->normal[v], -way);
-        f->normal[v] = n;
+    int end = part->first_vertex + part->nvertices;
+    for (int v = part->first_vertex; v < end;) {
+        Pressed s = {.n = 0};
+        for (; v < end && s.n < BLOCK; v++) {
+            double most = most_at(f, p, f->position[v]);
+            if (most == 0) continue;
+            s.vertex[s.n] = v;
+            s.most[s.n] = most;
+            s.skin[s.n++] = f->position[v];
+        }
+        if (s.n > 0) press_all(f, p, &s);
+        for (int i = 0; i < s.n; i++) {
+            if (s.way[i].by <= 0) continue;
+            Vec3 n = f->normal[s.vertex[i]];
+            double way = way_in(f, p, s.skin[i], s.level[i], s.way[i].by, s.most[i], &n);
+            f->position[s.vertex[i]] = vec_mad(s.skin[i], f->normal[s.vertex[i]], -way);
+            f->normal[s.vertex[i]] = n;
+        }
     }
 }
 

@@ -32,7 +32,7 @@ static void ask(Near *near, const BodyFrame *body, int part, const Vec3 *point, 
         vertex[count++] = v;
     }
     if (count == 0) return;
-    body_frame_unpressed_many(body, part, at, count, far, distance);
+    body_frame_unpressed_many(body, part, at, count, far, distance, NULL);
     for (int k = 0; k < count; k++) {
         Near *of = &near[vertex[k]];
         if (distance[k] >= far) continue;

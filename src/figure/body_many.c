@@ -96,57 +96,68 @@ ALWAYS void before_planes(const BodyPart *part, const Lanes *at, const Lanes *p,
     }
 }
 
+/* Where the surface leans, from the foot of the first distance again. */
+ALWAYS void look_again(const BodyPart *part, const Lanes *p, double far, double distance[LANES], Lanes *n) {
+    Lanes foot, other;
+    double better[LANES];
+    for (int i = 0; i < LANES; i++) {
+        foot.x[i] = p->x[i] + n->x[i] * -distance[i];
+        foot.y[i] = p->y[i] + n->y[i] * -distance[i];
+        foot.z[i] = p->z[i] + n->z[i] * -distance[i];
+    }
+    before_planes(part, &foot, p, better, &other);
+    for (int i = 0; i < LANES; i++) {
+        bool counts = (distance[i] < far) & (fabs(n->y[i]) > BODY_LEANING) & ((better[i] > 0) == (distance[i] > 0));
+        distance[i] = counts ? better[i] : distance[i];
+        n->x[i] = counts ? other.x[i] : n->x[i];
+        n->y[i] = counts ? other.y[i] : n->y[i];
+        n->z[i] = counts ? other.z[i] : n->z[i];
+    }
+}
+
 /* body_distance for the first n lanes. */
-ALWAYS void sixteen(const BodyPart *part, const Rigid *to_part, const Vec3 *points, int n, double far, double *out) {
-    Lanes p, normal, foot, unused;
+ALWAYS void sixteen(const BodyPart *part, const Rigid *to_part, const Vec3 *points, int n, double far, double *out,
+                    Vec3 *normal) {
+    Lanes p, up;
     int near[LANES], leans = 0;
-    double distance[LANES], better[LANES];
+    double distance[LANES];
     bring(to_part, points, n, &p);
     if (!find_near(part, &p, far, near)) {
         for (int i = 0; i < n; i++) out[i] = far;
         return;
     }
-    before_planes(part, &p, &p, distance, &normal);
-    for (int i = 0; i < LANES; i++) leans |= near[i] & (distance[i] < far) & (fabs(normal.y[i]) > BODY_LEANING);
-    if (leans) {
-        for (int i = 0; i < LANES; i++) {
-            foot.x[i] = p.x[i] + normal.x[i] * -distance[i];
-            foot.y[i] = p.y[i] + normal.y[i] * -distance[i];
-            foot.z[i] = p.z[i] + normal.z[i] * -distance[i];
-        }
-        before_planes(part, &foot, &p, better, &unused);
-        for (int i = 0; i < LANES; i++) {
-            bool counts = (distance[i] < far) & (fabs(normal.y[i]) > BODY_LEANING);
-            distance[i] = counts & ((better[i] > 0) == (distance[i] > 0)) ? better[i] : distance[i];
-        }
-    }
+    before_planes(part, &p, &p, distance, &up);
+    for (int i = 0; i < LANES; i++) leans |= near[i] & (distance[i] < far) & (fabs(up.y[i]) > BODY_LEANING);
+    if (leans) look_again(part, &p, far, distance, &up);
     for (int i = 0; i < n; i++) out[i] = near[i] & (distance[i] < far) ? distance[i] : far;
+    for (int i = 0; normal && i < n; i++) normal[i] = vec(up.x[i], up.y[i], up.z[i]);
 }
 
-ALWAYS void all(const BodyPart *part, const Rigid *to_part, const Vec3 *p, int n, double far, double *out) {
+ALWAYS void all(const BodyPart *part, const Rigid *to_part, const Vec3 *p, int n, double far, double *out,
+                Vec3 *normal) {
     for (int i = 0; i < n; i += LANES)
-        sixteen(part, to_part, p + i, n - i < LANES ? n - i : LANES, far, out + i);
+        sixteen(part, to_part, p + i, n - i < LANES ? n - i : LANES, far, out + i, normal ? normal + i : NULL);
 }
 
 #ifdef VECTORS_ARE_X86
 FOR_AVX2 static void all_avx2(const BodyPart *part, const Rigid *to_part, const Vec3 *p, int n, double far,
-                              double *out) {
-    all(part, to_part, p, n, far, out);
+                              double *out, Vec3 *normal) {
+    all(part, to_part, p, n, far, out, normal);
 }
 
 FOR_AVX512 static void all_avx512(const BodyPart *part, const Rigid *to_part, const Vec3 *p, int n, double far,
-                                  double *out) {
-    all(part, to_part, p, n, far, out);
+                                  double *out, Vec3 *normal) {
+    all(part, to_part, p, n, far, out, normal);
 }
 #endif
 
 void body_distances(const BodyPart *part, Vectors vectors, const Rigid *to_part, const Vec3 *p, int n, double far,
-                    double *out) {
+                    double *out, Vec3 *normal) {
 #ifdef VECTORS_ARE_X86
     vectors = vectors_pick(vectors);
-    if (vectors == VECTORS_AVX512) all_avx512(part, to_part, p, n, far, out);
-    else if (vectors == VECTORS_AVX2) all_avx2(part, to_part, p, n, far, out);
+    if (vectors == VECTORS_AVX512) all_avx512(part, to_part, p, n, far, out, normal);
+    else if (vectors == VECTORS_AVX2) all_avx2(part, to_part, p, n, far, out, normal);
     else
 #endif
-        all(part, to_part, p, n, far, out);
+        all(part, to_part, p, n, far, out, normal);
 }
