@@ -268,6 +268,30 @@ static void test_crouch(void) {
     rig_close(&found);
 }
 
+/* A thigh that is lifted towards the chest, a little to the side, while the knee is stretched and while it is bent. */
+static void test_lifted_thigh(void) {
+    static const double flexion[] = {0, 45, 90, 120, 150}, knee[] = {5, 60, 120};
+    Rig r;
+    if (!OK(rig_open(&r, "tests/data/figure/mixamo.bvh", NULL) && motion_row(r.reader, 0, r.row, &r.e), "mixamo opens"))
+        return;
+    const Joint *joint = r.motion.skeleton.joint;
+    int thigh = joint[r.roles.joint[ROLE_LEFT_THIGH]].first_channel;
+    int shin = joint[r.roles.joint[ROLE_LEFT_SHIN]].first_channel;
+    double most = 0;
+    for (int i = 0; i < 5; i++)
+        for (int k = 0; k < 3; k++) {
+            Pose pose;
+            double turns[] = {15, 0, -flexion[i]}, bend[] = {0, 0, knee[k]}; /* about z, y, x */
+            for (int c = 0; c < 3; c++) r.row[thigh + c] = turns[c], r.row[shin + c] = bend[c];
+            skeleton_pose(&r.motion.skeleton, r.row, r.world);
+            figure_pose(&r.figure, r.world, &pose);
+            Vec3 side = mat_column(pose.bone[ROLE_LEFT_THIGH].r, 0), hips = mat_column(pose.bone[ROLE_PELVIS].r, 0);
+            most = fmax(most, angle(side, hips));
+        }
+    OK(most < 20, "a lifted thigh keeps its side where the hips have theirs, within %.0f degrees", most);
+    rig_close(&r);
+}
+
 /* ---- real motions ---- */
 
 enum { WALKS = 1, STANDS = 2 }; /* goes ahead; head over pelvis and pelvis upright all the time */
@@ -300,13 +324,13 @@ static const struct { const char *file, *unit; char up; double stature; int habi
     {"cmu_11_01_kick.amc", "5.644 cm", 'y', 1.78, WALKS | STANDS},
 };
 
-/* By how much a knee that is bent by 50 degrees or more does not lie behind its thigh, degrees. */
+/* By how much a knee that is bent by 90 degrees or more does not lie behind its thigh, degrees. */
 static double knee_off(const Pose *pose) {
     double most = 0;
     for (int side = 0; side < 2; side++) {
         Role thigh = side ? ROLE_RIGHT_THIGH : ROLE_LEFT_THIGH;
         Vec3 shin = mat_apply(mat_transpose(pose->bone[thigh].r), mat_column(pose->bone[thigh + 1].r, 1));
-        if (angle(shin, vec(0, 1, 0)) >= 50) most = fmax(most, fabs(atan2(shin.x, shin.z)) / DEGREE);
+        if (angle(shin, vec(0, 1, 0)) >= 90) most = fmax(most, fabs(atan2(shin.x, shin.z)) / DEGREE);
     }
     return most;
 }
@@ -423,6 +447,7 @@ int main(void) {
     test_upright();
     test_lying();
     test_crouch();
+    test_lifted_thigh();
     for (int i = 0; i < (int)(sizeof real / sizeof real[0]); i++) test_real(i);
     test_same_skeleton();
     test_no_size();

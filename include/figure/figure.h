@@ -49,9 +49,9 @@ MUST_CHECK bool figure_build(const Motion *m, const Roles *roles, const FigureOp
                              Notes *notes, Figure *out, Error *e);
 
 /* The pose for the joints' world transforms (file units) of one frame. Limbs turn by the smallest
-   rotation from their parent's frame (no twist), and a thigh about its axis until a bent knee lies
-   behind it; pelvis, chest, head and feet follow their joints; the spine stands half-way between
-   pelvis and chest. */
+   rotation from their parent's frame (no twist), and a thigh about its axis until its side lies where
+   the hips have theirs and a bent knee behind it; pelvis, chest, head and feet follow their joints;
+   the spine stands half-way between pelvis and chest. */
 void figure_pose(const Figure *f, const Rigid *world, Pose *out);
 
 /* The pose in which every bone is where it stands in the canonical stance. */

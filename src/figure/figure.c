@@ -2,7 +2,8 @@
    how they sit on them), so they lean and turn as the performer did. Limbs do not: the twist
    of a joint means something else in every rig, so a limb bone takes the smallest turn from
    its parent that points it the right way, and starts where its joint is. Only a thigh turns
-   about itself too: with the plane in which its knee bends, which means the same in all. */
+   about itself too: with the hips and the plane in which its knee bends, which mean the same
+   in all. */
 #include "figure/figure.h"
 
 #include "figure/bind.h"
@@ -131,28 +132,39 @@ static void pose_arm(const Poser *p, Role clavicle) {
     pose_limb_bone(p, hand, forearm, forearm);
 }
 
-/* A knee bends backwards: the more it is bent, the more surely the shin says where the thigh's back is. The
-   smallest turn from the pelvis does not in a deep squat, where the thigh points nearly the other way. */
-static void turn_to_knee(const Poser *p, Role thigh) {
-    static const double STRAIGHT = 20 * PI / 180, BENT = 50 * PI / 180;
+/* Turns a bone about its own length: a part `share` of the turn that takes `from` to `to`, both across it. */
+static void twist(const Figure *f, Role role, Vec3 axis, Vec3 from, Vec3 to, double share, Rigid *bone) {
+    double turn = atan2(vec_dot(vec_cross(from, to), axis), vec_dot(from, to));
+    Mat3 r = mat_mul(mat_axis_angle(axis, share * turn), bone->r);
+    *bone = placed(r, f->start[role], rigid_apply(*bone, f->start[role]));
+}
+
+static Vec3 across(Vec3 v, Vec3 axis) { return vec_mad(v, axis, -vec_dot(v, axis)); }
+
+/* The smallest turn from the pelvis twists a thigh that is lifted to the chest. So its side is kept to the pelvis's
+   side, as far as it does not point there itself; and the more the knee is bent, the more surely the shin says where
+   the thigh's back is. A knee that is bent little says little: in a stride it would turn the thigh to and fro. */
+static void twist_thigh(const Poser *p, Role thigh) {
+    static const double ASTRIDE = 0.5, SPLIT = 0.95; /* cosine between thigh and hip line */
+    static const double STRAIGHT = 40 * PI / 180, BENT = 90 * PI / 180;
     const Figure *f = p->f;
     Role shin = thigh + 1;
-    if (f->roles.joint[shin] < 0 || f->toward[shin] < 0) return;
     Rigid *bone = &p->pose->bone[thigh];
-    Vec3 along = mat_apply(bone->r, vec_sub(f->end[thigh], f->start[thigh])), axis = vec_unit_or(along, vec(0, -1, 0));
-    Vec3 shank = vec_sub(point(p, f->toward[shin]), point(p, f->roles.joint[shin]));
-    Vec3 aside = vec_mad(shank, axis, -vec_dot(shank, axis)), back = vec_scale(mat_column(bone->r, 2), -1);
+    Vec3 axis = vec_unit_or(mat_apply(bone->r, vec_sub(f->end[thigh], f->start[thigh])), vec(0, -1, 0));
+    Vec3 hips = mat_column(p->pose->bone[ROLE_PELVIS].r, 0);
+    double share = 1 - smoothstep(ASTRIDE, SPLIT, fabs(vec_dot(hips, axis)));
+    twist(f, thigh, axis, mat_column(bone->r, 0), across(hips, axis), share, bone);
+    if (f->roles.joint[shin] < 0 || f->toward[shin] < 0) return;
+    Vec3 shank = vec_sub(point(p, f->toward[shin]), point(p, f->roles.joint[shin])), aside = across(shank, axis);
     double bend = atan2(vec_len(aside), vec_dot(shank, axis));
-    double turn = atan2(vec_dot(vec_cross(back, aside), axis), vec_dot(back, aside));
-    Mat3 twist = mat_axis_angle(axis, turn * smoothstep(STRAIGHT, BENT, bend));
-    *bone = placed(mat_mul(twist, bone->r), f->start[thigh], rigid_apply(*bone, f->start[thigh]));
+    twist(f, thigh, axis, vec_scale(mat_column(bone->r, 2), -1), aside, smoothstep(STRAIGHT, BENT, bend), bone);
 }
 
 static void pose_leg(const Poser *p, Role thigh) {
     const Figure *f = p->f;
     Role shin = thigh + 1, foot = thigh + 2, toe = thigh + 3;
     pose_limb_bone(p, thigh, ROLE_PELVIS, ROLE_PELVIS);
-    turn_to_knee(p, thigh);
+    twist_thigh(p, thigh);
     pose_limb_bone(p, shin, thigh, thigh);
     Mat3 r = f->bound[foot] ? bound_turn(p, foot) : p->pose->bone[shin].r;
     p->pose->bone[foot] = placed(r, f->start[foot], start_of(p, foot, shin));
