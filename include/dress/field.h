@@ -11,7 +11,9 @@ typedef struct {
     double cap;                    /* no vertex is moved farther, metres */
     int start[LATTICE_LEVELS + 1]; /* level l's vertices are start[l]..start[l + 1) */
     Vec3 *displacement;            /* per level vertex */
-    Vec3 *offset;                  /* per lattice place: the last millimetres of single vertices */
+    Vec3 *offset;                  /* per lattice place: the last millimetres of single vertices; */
+    bool *has_offset;              /* whether it is one of those */
+    int *moved, nmoved;            /* that have, or had, one */
     Mat3 pelvis;                   /* of the frame that the displacement belongs to */
 } Field;
 
@@ -33,6 +35,9 @@ Vec3 field_at(const Field *f, unsigned levels, int place);
 
 /* d, shortened to `cap`; *capped becomes true if it was longer. */
 Vec3 field_limit(Vec3 d, double cap, bool *capped);
+
+/* Moves a single vertex. */
+void field_set_offset(Field *f, int place, Vec3 offset);
 
 static inline bool field_is_zero(Vec3 d) { return d.x == 0 && d.y == 0 && d.z == 0; }
 

@@ -16,17 +16,32 @@ bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e) {
         f->start[l + 1] = f->start[l] + (l <= lattice->depth ? lattice->level[l].count : 0);
     f->displacement = ARENA_NEW(arena, Vec3, f->start[LATTICE_LEVELS], e);
     f->offset = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
-    return f->displacement && f->offset;
+    f->has_offset = ARENA_NEW(arena, bool, lattice->nplaces, e);
+    f->moved = ARENA_NEW(arena, int, lattice->nplaces, e);
+    return f->displacement && f->offset && f->has_offset && f->moved;
+}
+
+void field_set_offset(Field *f, int place, Vec3 offset) {
+    if (!f->has_offset[place]) f->moved[f->nmoved++] = place;
+    f->has_offset[place] = true;
+    f->offset[place] = offset;
+}
+
+static void drop_offset(Field *f, int place) {
+    f->has_offset[place] = false;
+    f->offset[place] = vec(0, 0, 0);
 }
 
 void field_forget(Field *f) {
     memset(f->displacement, 0, (size_t)f->start[LATTICE_LEVELS] * sizeof *f->displacement);
-    memset(f->offset, 0, (size_t)f->lattice->nplaces * sizeof *f->offset);
+    for (int k = 0; k < f->nmoved; k++) drop_offset(f, f->moved[k]);
+    f->nmoved = 0;
 }
 
 void field_copy(const Field *from, Field *to) {
+    field_forget(to);
     memcpy(to->displacement, from->displacement, (size_t)from->start[LATTICE_LEVELS] * sizeof *to->displacement);
-    memcpy(to->offset, from->offset, (size_t)from->lattice->nplaces * sizeof *to->offset);
+    for (int k = 0; k < from->nmoved; k++) field_set_offset(to, from->moved[k], from->offset[from->moved[k]]);
 }
 
 /* What happens to vectors that are carried along. */
@@ -53,7 +68,13 @@ void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leave
     for (int level = 0; level <= l->depth; level++)
         for (int v = 0; v < l->level[level].count; v++)
             if (carry(&f->displacement[f->start[level] + v], &c)) leaves_open(leaves, level, v);
-    for (int v = 0; v < l->nplaces; v++) carry(&f->offset[v], &c);
+    int moved = f->nmoved;
+    f->nmoved = 0;
+    for (int k = 0; k < moved; k++) {
+        int place = f->moved[k];
+        if (carry(&f->offset[place], &c)) f->moved[f->nmoved++] = place;
+        else drop_offset(f, place);
+    }
     f->pelvis = pelvis;
 }
 

@@ -324,7 +324,7 @@ static double sweep_all(Push *p, const BodyFrame *body, const Sheet *sheet, Push
 static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, bool *capped) {
     int place = sheet->place[vertex];
     double clearance = p->clearance[vertex];
-    Vec3 *o = &p->field.offset[place], *x = &p->point[vertex];
+    Vec3 *x = &p->point[vertex];
     if (near_slack(p->near[vertex].least, clearance) > vec_dist(*x, p->near[vertex].seen)) return;
     unsigned near = parts_near(body, parts_at(p, place), *x, clearance), worn = p->lattice->collide[place];
     for (int step = 0; step < SETTLES_MAX && near; step++) {
@@ -336,9 +336,10 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
             double way = way_asked(p, body, place, near, part, *x, clearance, distance, &n);
             if (way <= 0) continue;
             if (!(worn & part_bit(body, part)) && way > OFFSET_MAX * p->field.scale) continue; /* out of reach */
-            Vec3 longer = field_limit(vec_mad(*o, n, way), OFFSET_MAX * p->field.scale, capped);
-            *x = vec_add(*x, vec_sub(longer, *o));
-            *o = longer;
+            Vec3 o = p->field.offset[place];
+            Vec3 longer = field_limit(vec_mad(o, n, way), OFFSET_MAX * p->field.scale, capped);
+            *x = vec_add(*x, vec_sub(longer, o));
+            field_set_offset(&p->field, place, longer);
             moved = true;
         }
         if (!moved) return;

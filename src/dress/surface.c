@@ -3,6 +3,8 @@
    owns them; what lies between the places of its owner's leaves, beside a finer neighbour, is taken alone. */
 #include "dress/surface.h"
 
+#include <string.h>
+
 bool surface_reserve(Surface *s, const Lattice *lattice, Arena *arena, Error *e) {
     int points = (lattice->detail + 1) * (lattice->detail + 1);
     *s = (Surface){.lattice = lattice};
@@ -66,7 +68,8 @@ void surface_field(const Surface *s, const Sheet *sheet, const Field *f, Vec3 *o
     unsigned levels = field_levels(f);
     int points = (s->lattice->detail + 1) * (s->lattice->detail + 1);
     Leaf leaf;
-    for (int at = 0; next_leaf(sheet, &at, &leaf);) {
+    if (!levels) memset(out, 0, (size_t)sheet->nvertices * sizeof *out);
+    for (int at = 0; levels && next_leaf(sheet, &at, &leaf);) {
         for (int k = 0; k < points; k++) s->grid[k] = vec(0, 0, 0);
         for (int level = 0; level <= leaf.level; level++) {
             Patch patch;
