@@ -38,9 +38,9 @@ for topology in adaptive fixed; do
     for preset in squat turn; do
         out=$preset-$topology
         "$KITSUKE" walk --preset $preset -o $preset.bvh
-        ok "$preset, $topology" "$KITSUKE" dress $preset.bvh -g "$garments/skirt.garment" -g "$garments/trousers.garment" \
-            -g "$garments/paper-skirt.garment" -g "$garments/tshirt.garment" -o $out --format obj --topology $topology \
-            --frames 10::40 -q
+        ok "$preset, $topology" "$KITSUKE" dress $preset.bvh -o $out --format obj --topology $topology -q \
+            --frames 10::40 -g "$garments/skirt.garment" -g "$garments/trousers.garment" \
+            -g "$garments/paper-skirt.garment" -g "$garments/tshirt.garment"
         "$KITSUKE" verify $out >told 2>/dev/null
         is 'no cracks' "$(column cracks)" 'paper-skirt:0 skirt:0 trousers:0 tshirt:0 '
         is 'as many openings as the garments have' "$(column borders)" 'paper-skirt:2 skirt:2 trousers:3 tshirt:4 '
