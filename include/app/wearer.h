@@ -3,12 +3,14 @@
 #define APP_WEARER_H
 
 #include "app/wardrobe.h"
+#include "geometry/facing.h"
 
 typedef struct {
     Motion motion;
     Figure figure;
     Body body;
     BodyFrame posed;
+    Facing facing; /* of the skin */
 } Wearer;
 
 /* Reads the motion, finds its figure and fits the body of the wardrobe to it. unit: output units
@@ -26,7 +28,8 @@ MUST_CHECK bool wearer_share(const Wearer *w, double unit, Arena *arena, Wearer 
 MUST_CHECK bool wearer_put_on(const Wearer *w, const Wardrobe *wardrobe, const DressOptions *options, Arena *arena,
                               Dresser ***out, Error *e);
 
-/* The body as it was posed last: arrays of `posed`, valid until the next pose. */
+/* The body as it was posed last: arrays of `posed`, valid until the next pose. Where parts gave way, its normals
+   are mended first. */
 Mesh wearer_skin(const Wearer *w);
 
 #endif

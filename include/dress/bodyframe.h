@@ -10,9 +10,10 @@ typedef struct {
     Vectors vectors;               /* to measure many distances with */
     double unit;                   /* output units per metre */
     Pose pose;
-    Vec3 *position, *normal;       /* skin.nvertices; positions in output units, snapped to the
-                                      precision of the text, so that what a reader of the file
-                                      sees is what was tested */
+    Vec3 *position, *normal;       /* skin.nvertices, and room for as many normals of creases;
+                                      positions in output units, snapped to the precision of the
+                                      text, so that what a reader of the file sees is what was
+                                      tested */
     Rigid to_part[BODY_PARTS_MAX]; /* world (metres) -> part frame */
     Mat3 to_world[BODY_PARTS_MAX]; /* part frame -> world, directions */
     Box box[BODY_PARTS_MAX];       /* of each part; world, metres; a little larger than it */

@@ -2,6 +2,12 @@
    and nowhere else, so that every command sees the same figure. */
 #include "app/wearer.h"
 
+static bool make_frame(Wearer *w, double unit, Arena *arena, Error *e) {
+    const Mesh *skin = &w->body.skin;
+    return body_frame_init(&w->posed, &w->body, unit, arena, e) &&
+           facing_reserve(&w->facing, skin->nvertices, skin->ntriangles, arena, e);
+}
+
 bool wearer_open(const Wardrobe *wardrobe, const char *path, double unit, Arena *arena, Notes *notes, Wearer *out,
                  Error *e) {
     const Settings *s = wardrobe->settings;
@@ -13,12 +19,12 @@ bool wearer_open(const Wardrobe *wardrobe, const char *path, double unit, Arena 
            roles_read(&out->motion, s->roles, arena, notes, &roles, e) &&
            figure_build(&out->motion, &roles, &figure, arena, notes, &out->figure, e) &&
            body_fit(&wardrobe->body, &out->figure, s->body_detail ? s->body_detail : 16, arena, &out->body, e) &&
-           body_frame_init(&out->posed, &out->body, unit, arena, e);
+           make_frame(out, unit, arena, e);
 }
 
 bool wearer_share(const Wearer *w, double unit, Arena *arena, Wearer *out, Error *e) {
     *out = *w;
-    return body_frame_init(&out->posed, &out->body, unit, arena, e);
+    return make_frame(out, unit, arena, e);
 }
 
 void wearer_close(Wearer *w) { motion_close(&w->motion); }
@@ -37,5 +43,6 @@ Mesh wearer_skin(const Wearer *w) {
     Mesh mesh = w->body.skin;
     mesh.position = w->posed.position;
     mesh.normal = w->posed.normal;
+    facing_mend(&w->facing, &mesh);
     return mesh;
 }

@@ -8,7 +8,7 @@
 bool body_frame_init(BodyFrame *f, const Body *body, double unit, Arena *arena, Error *e) {
     *f = (BodyFrame){.body = body, .unit = unit};
     f->position = ARENA_NEW(arena, Vec3, body->skin.nvertices, e);
-    f->normal = ARENA_NEW(arena, Vec3, body->skin.nvertices, e);
+    f->normal = ARENA_NEW(arena, Vec3, 2 * body->skin.nvertices, e);
     if (!f->position || !f->normal) return false;
     for (int p = 0; p < body->nparts; p++)
         if (!crossing_reserve(&f->edges[p], body->part[p].nedges, arena, e) ||

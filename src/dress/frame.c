@@ -14,9 +14,9 @@
 #include "base/clock.h"
 #include "dress/follow.h"
 #include "dress/literal.h"
-#include "dress/normals.h"
 #include "dress/push.h"
 #include "dress/residual.h"
+#include "geometry/facing.h"
 
 enum { DETAIL_DEFAULT = 8, DEPTH_DEFAULT = 2 };
 /* Rounds of asking for more distance; every third time the whole surface gives way, not only the
@@ -42,7 +42,7 @@ struct Dresser {
     Push push;
     Tester tester;
     Literal literal;
-    Normals normals;
+    Facing facing;
     Vec3 *position, *normal; /* of the written mesh */
     Vec3 *moved;             /* positions of the vertices that were asked for more */
     unsigned *clear;         /* per vertex: parts (bits 1 << role) that it is outside of for certain */
@@ -83,8 +83,7 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
         !leaves_reserve(&d->by_rule, &d->lattice, arena, e) || !leaves_reserve(&d->leaves, &d->lattice, arena, e) ||
         !leaves_reserve(&d->fresh, &d->lattice, arena, e) || !leaves_reserve(&d->kept, &d->lattice, arena, e) ||
         !leaves_reserve(&d->grid, &d->lattice, arena, e) || !sheet_reserve(&d->sheet, &d->lattice, arena, e) ||
-        !push_reserve(&d->push, &d->lattice, arena, e) || !normals_reserve(&d->normals, &d->lattice, arena, e) ||
-        !make_groups(d, arena, e))
+        !push_reserve(&d->push, &d->lattice, arena, e) || !make_groups(d, arena, e))
         return false;
     int triangles = 2 * d->fit.npatches * d->lattice.side * d->lattice.side, places = d->lattice.nplaces;
     d->root = ARENA_NEW(arena, Patch, d->fit.npatches, e);
@@ -95,7 +94,9 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
     d->u = ARENA_NEW(arena, double, places, e);
     d->w = ARENA_NEW(arena, double, places, e);
     if (!d->root || !d->position || !d->moved || !d->clear || !d->normal || !d->u || !d->w) return false;
-    if (!tester_reserve(&d->tester, 3 * triangles, triangles, arena, e)) return false;
+    if (!tester_reserve(&d->tester, 3 * triangles, triangles, arena, e) ||
+        !facing_reserve(&d->facing, places, triangles, arena, e))
+        return false;
     leaves_fill(&d->grid, depth);
     Pose rest = figure_rest_pose();
     follow_pose(&d->follower, &rest, d->root);
@@ -291,7 +292,7 @@ static void set_groups(Dresser *d, const int *first_of_patch, Mesh *mesh) {
 static void fill_mesh(Dresser *d, Mesh *mesh) {
     const Sheet *s = &d->sheet;
     int n = d->lattice.side + 1;
-    normals_find(&d->normals, &d->push.field, d->root, s, d->position, d->normal);
+    surface_normals(&d->push.surface, s, &d->push.field, d->root, d->normal);
     for (int v = 0; v < s->nvertices; v++) {
         int owner = d->lattice.owner[s->place[v]];
         d->u[v] = (double)(owner / n % n) / d->lattice.side;
@@ -305,10 +306,8 @@ static void fill_mesh(Dresser *d, Mesh *mesh) {
                    .u = d->u,
                    .w = d->w,
                    .triangle = s->triangle,
-                   .edge = s->edge,
-                   .nextra = d->normals.nextra,
-                   .ncreases = d->normals.ncreases,
-                   .crease = d->normals.crease};
+                   .edge = s->edge};
+    facing_mend(&d->facing, mesh);
     set_groups(d, s->first_of_patch, mesh);
 }
 
