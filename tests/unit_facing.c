@@ -128,7 +128,7 @@ static void test_bent_sheet(void) {
         blind += best_of_sphere(facet, n) > 0.02;
     }
     OK(bent > 20, "%d vertices are bent away from their surface", bent);
-    OK(away > 0 && away < bent && blind == 0, "%d of these have a normal that looks away from a facet, as all do", away);
+    OK(away > 0 && away < bent && blind == 0, "%d have a normal that looks away from a facet, as all do", away);
     OK(b.mesh.ncreases >= away && dark_corners(&b.mesh) == 0, "but each corner has one that sees its facet");
     int before = b.mesh.ncreases;
     facing_mend(&facing, &b.mesh);
