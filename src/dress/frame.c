@@ -24,6 +24,9 @@ enum { DETAIL_DEFAULT = 8, DEPTH_DEFAULT = 2 };
 enum { ROUNDS_MAX = 9, SOLVE_EVERY = 3 };
 enum { MANY = 4 }; /* where more than this part of the vertices has moved, the whole mesh is tested */
 enum { ATTEMPTS = 4 };
+static const double FAR = 0.5;      /* of the cap: cloth moved farther than that is tried anew from its global shape, */
+static const double CLOSER = 0.6;   /* and left there if that share of the way does as well */
+static const double THROWN = 2;     /* residuals of cloth at the cap count 1 + this */
 static const double NEAR = 0.45;    /* of the cap, in the last attempt */
 static const double HEADWAY = 0.7;  /* of the bad vertices may be left after that, or it is given up */
 static const double RAISE = 0.0015; /* metres of clearance added where an edge still crosses, on 1.70 m */
@@ -162,12 +165,6 @@ static Wrong test_raised(Dresser *d, const BodyFrame *body, Wrong w, CrossingCou
 
 static int total(const Residual *r) { return r->edges + r->cloth + r->inside; }
 
-/* Parts that the garment is worn over count first. */
-static bool is_better(const Wrong *a, const Wrong *b) {
-    int own = total(&a->own) - total(&b->own);
-    return own < 0 || (own == 0 && total(&a->other) < total(&b->other));
-}
-
 /* One attempt: pushes, tests the mesh, asks for more distance round everything that still crosses
    a part, until nothing does, or nothing gets better, or a cap. */
 static Wrong attempt(Dresser *d, const BodyFrame *body, FrameStats *stats, PushResult *result, CrossingCount *count) {
@@ -238,30 +235,52 @@ static void prepare(Dresser *d, int attempt, double cap) {
     d->push.field.cap = attempt == ATTEMPTS - 1 ? NEAR * cap : cap;
 }
 
+typedef struct {
+    Wrong wrong;
+    PushResult push;
+} Outcome;
+
+/* Parts that the garment is worn over count first: nothing of them may show. Among outcomes that leave some, and
+   among those that do not, cloth that has been thrown far counts too. */
+static bool is_better(const Outcome *a, const Outcome *b, double cap) {
+    int own_a = total(&a->wrong.own), own_b = total(&b->wrong.own);
+    double far_a = a->push.displacement / cap, far_b = b->push.displacement / cap;
+    if (own_a > 0 && own_b > 0) return own_a * (1 + THROWN * far_a) < own_b * (1 + THROWN * far_b);
+    if (own_a + own_b > 0) return own_a == 0;
+    if (far_b > FAR && far_a < CLOSER * far_b) return true;
+    return total(&a->wrong.other) < total(&b->wrong.other) && far_a <= fmax(far_b, FAR);
+}
+
+/* Is attempt k worth making? Where something is left; and the first, which forgets what was carried, where that
+   has kept cloth far away. */
+static bool is_wanting(const Outcome *o, int k, bool is_carried, double cap) {
+    return total(&o->wrong.own) > 0 || (k == 1 && is_carried && o->push.displacement > FAR * cap);
+}
+
 static Wrong push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
-    PushResult result = {0};
+    Outcome best = {.push = {0}};
     double cap = d->push.field.cap;
-    Wrong best = attempt(d, body, stats, &result, count);
-    for (int k = 1; k < ATTEMPTS && total(&best.own) > 0; k++) {
-        PushResult other = {.sweeps = result.sweeps};
+    bool is_carried = field_levels(&d->push.field) > 0;
+    best.wrong = attempt(d, body, stats, &best.push, count);
+    for (int k = 1; k < ATTEMPTS && is_wanting(&best, k, is_carried, cap); k++) {
+        Outcome other = {.push.sweeps = best.push.sweeps};
         keep(d);
         prepare(d, k, cap);
-        Wrong w = attempt(d, body, stats, &other, count);
-        if (is_better(&w, &best)) {
-            best = w;
-            result = other;
+        other.wrong = attempt(d, body, stats, &other.push, count);
+        if (is_better(&other, &best, cap)) {
+            best = other;
         } else {
             take_back(d, body, count);
-            result.sweeps = other.sweeps;
+            best.push.sweeps = other.push.sweeps;
         }
     }
     d->push.field.cap = cap;
-    stats->capped = total(&best.own) + total(&best.other) > 0 || result.capped;
-    stats->sweeps = result.sweeps;
-    stats->active = result.active;
-    stats->pinched = result.pinched;
-    stats->displacement = result.displacement;
-    return best;
+    stats->capped = total(&best.wrong.own) + total(&best.wrong.other) > 0 || best.push.capped;
+    stats->sweeps = best.push.sweeps;
+    stats->active = best.push.active;
+    stats->pinched = best.push.pinched;
+    stats->displacement = best.push.displacement;
+    return best.wrong;
 }
 
 /* The parts that nothing was done about, and what is left in all. */

@@ -16,6 +16,7 @@ static const double REACH = 0.04;      /* vertices farther from the body are not
 static const double SLACK = 0.1;       /* share of the clearance that may be missing after sweeps; settling makes
                                           up for it */
 static const double PIN_GIVES = 0.2;   /* a pinned level vertex moves this share of what a free one would */
+static const double COARSER = 0.7;     /* mobility of a level against that of the next finer one, which moves less cloth */
 static const double NORM_MIN = 0.1;    /* a sample that level vertices hardly move must not fling them */
 static const double BUDGET = 0.02;     /* a sample may issue twice its first violation and this */
 static const double HEADWAY = 0.6;     /* pushes that get this share of their length nowhere are a pinch */
@@ -48,7 +49,7 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
         return false;
     for (int level = 0; level <= lattice->depth; level++)
         for (int v = 0; v < lattice->level[level].count; v++)
-            p->mobility[p->field.start[level] + v] = lattice->level[level].pinned[v] ? PIN_GIVES : 1;
+            p->mobility[p->field.start[level] + v] = (lattice->level[level].pinned[v] ? PIN_GIVES : 1) * pow(COARSER, lattice->depth - level);
     return true;
 }
 
@@ -191,13 +192,24 @@ static double room_for(const BodyFrame *body, unsigned near, unsigned worn, int 
     return opposite & worn && !(part_bit(body, part) & worn) ? distance : clearance;
 }
 
-/* The side of a part on which a place that lies along it belongs: where it was in the bind pose, as seen from
-   the part's axis. Unit; world of this pose. False where the place lies beyond the part's ends: past a bent
-   joint such a side means nothing. */
-static bool side_at_rest(const Push *p, const BodyFrame *body, int place, int part, Vec3 *side) {
+/* A place that belongs to the other bone of a fold, and is in it: the side is the plane between the two. */
+static bool side_in_fold(const BodyFrame *body, int part, Vec3 x, bool above, Vec3 *side) {
+    const Contacts *c = &body->contacts[part];
+    for (int k = 0; k < c->n; k++) {
+        const Fold *fold = &c->contact[k].fold;
+        if (fold->bottom <= 0 || (c->contact[k].other < part) != above) continue;
+        *side = vec_scale(fold->across, -1);
+        return vec_dot(vec_sub(x, fold->centre), fold->inwards) > 0;
+    }
+    return false;
+}
+
+/* The side of a part on which a place, now at x, belongs. Along the part: where it was in the bind pose, as seen
+   from the part's axis. Past a bent joint that means nothing; false where there is no telling. Unit; world. */
+static bool side_of(const Push *p, const BodyFrame *body, int place, int part, Vec3 x, Vec3 *side) {
     const BodyPart *b = &body->body->part[part];
     Vec3 q = rigid_unapply(b->frame, p->rest[place]);
-    if (q.y < 0 || q.y > b->length) return false;
+    if (q.y < 0 || q.y > b->length) return side_in_fold(body, part, x, q.y < 0, side);
     Section c = body_section_at(b, q.y, NULL);
     *side = mat_apply(body->to_world[part], vec_unit_or(vec(q.x - c.x, 0, q.z - c.z), vec(1, 0, 0)));
     return true;
@@ -209,18 +221,24 @@ static bool has_side(Role role) {
 }
 
 /* The nearest way out of a limb that lies across the cloth may lead to its other side. *n, the normal of
-   the part at a place: bent towards the side where the place belongs; for a part that comes from outside
-   into the garment, the more the less it leads there, so that an arm that sweeps through does not throw
+   the part at a place: bent towards the side where the place belongs. A part that comes from outside never
+   pushes cloth out of the garment: the other leg of trousers is left at that; for an arm the normal is bent
+   into the garment, the more the less it leads there, so that one that sweeps through does not throw
    cloth to one side and then to the other. Returns whether it has changed. */
-static bool turn_inside(const Push *p, const BodyFrame *body, int place, int part, Vec3 *n) {
+static bool turn_inside(const Push *p, const BodyFrame *body, int place, int part, Vec3 x, Vec3 *n) {
     if (p->lattice->collide[place] & part_bit(body, part)) {
         Vec3 side;
-        if (!has_side(body->body->part[part].role) || !side_at_rest(p, body, place, part, &side)) return false;
+        if (!has_side(body->body->part[part].role) || !side_of(p, body, place, part, x, &side)) return false;
         double turn = 2 * (1 - smoothstep(-WRONG_SIDE, WRONG_SIDE, vec_dot(*n, side)));
         if (turn > 0) *n = vec_unit_or(vec_mad(*n, side, turn), side);
         return turn > 0;
     }
     Vec3 outwards = field_normal(&p->field, p->root, 0, place);
+    if (p->lattice->fit->collide & part_bit(body, part)) {
+        if (vec_dot(*n, outwards) <= OUTWARDS) return false;
+        *n = vec_scale(outwards, -1);
+        return true;
+    }
     double turn = smoothstep(-1, OUTWARDS, vec_dot(*n, outwards));
     *n = vec_unit_or(vec_mad(vec_scale(*n, 1 - turn), outwards, -turn), vec_scale(outwards, -1));
     return turn > 0;
@@ -231,7 +249,7 @@ static bool turn_inside(const Push *p, const BodyFrame *body, int place, int par
 static double way_out(const Push *p, const BodyFrame *body, int place, int part, Vec3 x, double wanted, double distance,
                       Vec3 *n) {
     double way = wanted - distance;
-    if (!turn_inside(p, body, place, part, n)) return way;
+    if (!turn_inside(p, body, place, part, x, n)) return way;
     for (int k = 0; k < STEPS_OUT; k++) {
         double d = body_frame_distance(body, part, vec_mad(x, *n, way), wanted, NULL);
         if (d >= wanted - SLACK * wanted) break;
