@@ -13,7 +13,8 @@ typedef struct {
     double weight[4 * LATTICE_LEVELS], norm2;
     double spent, budget;             /* push issued in this frame, and its limit; metres */
     Vec3 net;                         /* their sum */
-    Near near;                        /* parts worth asking, and where it was when they were last asked; */
+    Near near;                        /* parts worth asking, and where it was when they were last asked, */
+    unsigned asked;                   /* as those of these were where they give way; */
     double travelled;                 /* what it had gone at most by then (Push.travel) */
 } PushSample;
 

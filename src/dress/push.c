@@ -293,12 +293,13 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
     int place = sheet->place[s->vertex];
     if (!needs_asking(p, sheet, s, enough)) return 0;
     for (int part = 0; s->near.parts >> part; part++) {
-        bool clear = body->contacts[part].n == 0 && near_slack(s->near.distance[part], enough) > 0;
-        if (!(s->near.parts >> part & 1) || clear) continue;
+        if (!(s->near.parts >> part & 1)) continue;
+        if (near_slack(s->near.distance[part], enough) > 0 && !(s->asked >> part & 1)) continue;
         Vec3 n, x = s->near.seen;
         double distance = body_frame_distance(body, part, x, far, &n);
         double depth = way_asked(p, body, place, s->near.parts, part, x, clearance, distance, &n);
         s->near.distance[part] = (float)distance;
+        if (body->contacts[part].n > 0) s->asked |= 1u << part;
         if (depth <= 0) continue;
         if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->field.scale;
         s->spent += depth;
