@@ -1,6 +1,7 @@
 /* One motion keeps more than one thread busy before its frames are files: a frame's garments do not
    know of each other. The pieces of a frame stand in the press's list as long as any is to be taken; the
-   thread that brought them takes like the others, and goes on with the next frame when the last is done. */
+   thread that brought them takes from the front and goes on with the next frame when the last is done. Others
+   take from the back, so that a garment mostly stays with the thread that still has it in its cache. */
 #include "app/crew.h"
 
 #include "base/clock.h"
@@ -9,20 +10,20 @@ struct CrewRound {
     CrewPiece *run;
     void *context;
     PressTally *tally;
-    int count, taken, done;
+    int first, last, left; /* first..last - 1 are to be taken; left: not yet done */
     CrewRound *next; /* in the press's list */
 };
 
 /* Takes the next piece of a round and does it. Called and left with the lock held. */
 static void take_piece(Press *p, CrewRound *r, Pen *pen, bool as_helper) {
-    int piece = r->taken++;
+    int piece = as_helper ? --r->last : r->first++;
     pthread_mutex_unlock(p->lock);
     double start = clock_seconds();
     r->run(r->context, piece, pen);
     double seconds = clock_seconds() - start;
     pthread_mutex_lock(p->lock);
     if (as_helper) r->tally->helped += seconds;
-    if (++r->done == r->count) pthread_cond_broadcast(p->change);
+    if (--r->left == 0) pthread_cond_broadcast(p->change);
 }
 
 static void leave_list(Press *p, const CrewRound *r) {
@@ -33,7 +34,7 @@ static void leave_list(Press *p, const CrewRound *r) {
 
 bool crew_help(Press *p, Pen *pen) {
     CrewRound *r = p->rounds;
-    while (r && r->taken == r->count) r = r->next;
+    while (r && r->first == r->last) r = r->next;
     if (r) take_piece(p, r, pen, true);
     return r != NULL;
 }
@@ -43,13 +44,13 @@ void crew_do(Press *p, Pen *pen, PressTally *tally, CrewPiece *run, void *contex
         for (int i = 0; i < count; i++) run(context, i, pen);
         return;
     }
-    CrewRound round = {.run = run, .context = context, .tally = tally, .count = count};
+    CrewRound round = {.run = run, .context = context, .tally = tally, .last = count, .left = count};
     pthread_mutex_lock(p->lock);
     round.next = p->rounds;
     p->rounds = &round;
     pthread_cond_broadcast(p->change);
-    while (round.taken < count) take_piece(p, &round, pen, false);
-    while (round.done < count)
+    while (round.first < round.last) take_piece(p, &round, pen, false);
+    while (round.left > 0)
         if (!press_write_own(p, pen, tally)) press_wait(p, tally);
     leave_list(p, &round);
     pthread_mutex_unlock(p->lock);

@@ -63,6 +63,13 @@ static void settle(const PressOrder *o, long long bytes, double seconds, const E
     if (o->tally->error.kind == ERR_NONE) o->tally->error = *e;
 }
 
+/* With the lock held: the place of a mesh is free again. Places are used again in order. */
+static void vacate(Press *p, PressSheet *s) {
+    s->order.tally->waiting--;
+    s->order.tally = NULL;
+    for (; p->count > 0 && !p->sheet[p->first].order.tally; p->count--) p->first = (p->first + 1) % p->nsheets;
+}
+
 /* Writes a mesh that is in the ring. Called and left with the lock held. */
 static void write_sheet(Press *p, Pen *pen, PressSheet *s, bool as_helper) {
     long long bytes;
@@ -76,12 +83,7 @@ static void write_sheet(Press *p, Pen *pen, PressSheet *s, bool as_helper) {
     PressTally *tally = s->order.tally;
     settle(&s->order, good ? bytes : 0, seconds, &error);
     if (as_helper) tally->helped += seconds;
-    tally->waiting--;
-    s->order.tally = NULL;
-    while (p->count > 0 && !p->sheet[p->first].order.tally) { /* places become free in order */
-        p->first = (p->first + 1) % p->nsheets;
-        p->count--;
-    }
+    vacate(p, s);
     pthread_cond_broadcast(p->change);
 }
 
@@ -148,17 +150,26 @@ static bool copy_mesh(PressSheet *s, const Mesh *m) {
     return true;
 }
 
-/* With the lock held: is somebody free, and a place for it? */
-static bool hand_over(Press *p, const PressOrder *order, const Mesh *mesh) {
-    if (p->count >= PLACES * p->helpers) return false;
+/* With the lock held: a place for a mesh, if somebody is free to write it. Nobody takes it before it is filled. */
+static PressSheet *reserve(Press *p, const PressOrder *order) {
+    if (p->count >= PLACES * p->helpers) return NULL;
     PressSheet *s = &p->sheet[(p->first + p->count) % p->nsheets];
-    if (!copy_mesh(s, mesh)) return false;
     s->order = *order;
-    s->is_taken = false;
+    s->is_taken = true;
     p->count++;
     order->tally->waiting++;
+    return s;
+}
+
+/* Copies the mesh to its place; nobody waits meanwhile. False where there is no memory: the place is free again. */
+static bool fill(Press *p, PressSheet *s, const Mesh *mesh) {
+    bool good = copy_mesh(s, mesh);
+    pthread_mutex_lock(p->lock);
+    if (good) s->is_taken = false;
+    else vacate(p, s);
     pthread_cond_broadcast(p->change);
-    return true;
+    pthread_mutex_unlock(p->lock);
+    return good;
 }
 
 static bool take_error(const PressTally *tally, Error *e) {
@@ -170,9 +181,11 @@ static bool take_error(const PressTally *tally, Error *e) {
 bool press_put(Press *p, Pen *pen, const PressOrder *order, const Mesh *mesh, Error *e) {
     if (p->nsheets) {
         pthread_mutex_lock(p->lock);
-        bool good = take_error(order->tally, e), done = good && hand_over(p, order, mesh);
+        bool good = take_error(order->tally, e);
+        PressSheet *s = good ? reserve(p, order) : NULL;
         pthread_mutex_unlock(p->lock);
-        if (done || !good) return good;
+        if (!good) return false;
+        if (s && fill(p, s, mesh)) return true;
     }
     long long bytes;
     double start = clock_seconds();
