@@ -10,10 +10,10 @@
 
 #include "base/clock.h"
 
-enum { REPEATS = 11, REPEATS_MAX = 201, ROWS_MAX = 128, NAME_MAX_LENGTH = 80 };
+enum { REPEATS_LEAST = 3, REPEATS = 11, REPEATS_MAX = 201, ROWS_MAX = 128, NAME_MAX_LENGTH = 80 };
 /* Seconds: what takes less is done more than once within one measurement; measurements are repeated
-   for so long, for others may be busy on the same machine. */
-static const double SHORT = 0.001, ENOUGH = 0.4;
+   for so long, for others may be busy on the same machine; and REPEATS times, unless that takes longer. */
+static const double SHORT = 0.001, ENOUGH = 0.4, PATIENCE = 30;
 
 /* A row of the earlier run. ratio: "" where it has none. */
 typedef struct { char name[NAME_MAX_LENGTH], ratio[16]; double ms; } BaseRow;
@@ -44,10 +44,20 @@ static double seconds_of(void (*run)(void *context), void *context, int times) {
     return (clock_seconds() - start) / times;
 }
 
-Timing bench_time(void (*run)(void *context), void *context) {
-    double seconds[REPEATS_MAX], first = seconds_of(run, context, 1), end = clock_seconds() + ENOUGH;
-    int times = first < SHORT ? (int)(SHORT / (first + 1e-7)) + 1 : 1, n = 0;
-    while (n < REPEATS || (n < REPEATS_MAX && clock_seconds() < end)) seconds[n++] = seconds_of(run, context, times);
+static void nothing(void *context) { (void)context; }
+
+Timing bench_time(void (*run)(void *context), void *context) { return bench_time_after(nothing, run, context); }
+
+Timing bench_time_after(void (*before)(void *context), void (*run)(void *context), void *context) {
+    double seconds[REPEATS_MAX], start = clock_seconds();
+    before(context);
+    double first = seconds_of(run, context, 1), begun = clock_seconds();
+    int times = first < SHORT && before == nothing ? (int)(SHORT / (first + 1e-7)) + 1 : 1, n = 0;
+    while ((n < REPEATS && clock_seconds() < start + PATIENCE) || n < REPEATS_LEAST ||
+           (n < REPEATS_MAX && clock_seconds() < begun + ENOUGH)) {
+        before(context);
+        seconds[n++] = seconds_of(run, context, times);
+    }
     qsort(seconds, (size_t)n, sizeof seconds[0], by_size);
     return (Timing){seconds[0], seconds[n / 2]};
 }

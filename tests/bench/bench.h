@@ -12,6 +12,9 @@ typedef struct { double least, median; } Timing;
 /* Runs once to warm up, then at least ten times; what is short is done many times in each. */
 Timing bench_time(void (*run)(void *context), void *context);
 
+/* The same, with something before each run that does not count. */
+Timing bench_time_after(void (*before)(void *context), void (*run)(void *context), void *context);
+
 /* A thing that was done and what it was measured against. */
 typedef struct {
     const char *scene, *what;
