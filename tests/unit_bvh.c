@@ -121,8 +121,10 @@ static const Case heads[] = {
     {"duplicate names",
      "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\nJOINT a\n{\nOFFSET 0 0 0\n}\n}\n" ONE "5\n",
      1, "joint name 'a' occurs more than once", 0, 0, 5},
-    {"a second ROOT", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n}\nROOT b\n{\n", 0, "a second ROOT",
-     7, 1, 0},
+    {"a second ROOT",
+     "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n}\n"
+     "ROOT b\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n}\n" ONE "5 6\n", 1, "another ROOT", 7, 5, 6},
+    {"a ROOT within a joint", "HIERARCHY\nROOT a\n{\nROOT b\n{\n", 0, "ROOT within joint 'a'", 4, 5, 0},
     {"no ROOT", "HIERARCHY\nMOTION\n", 0, "no ROOT", 2, 1, 0},
     {"JOINT without ROOT", "HIERARCHY\nJOINT a\n", 0, "JOINT cannot stand outside of a ROOT", 2, 1, 0},
     {"a joint without a name", "HIERARCHY\nROOT\n{\n", 0, "joint without a name", 3, 1, 0},

@@ -253,6 +253,31 @@ static void test_not_human(void) {
     }
 }
 
+/* unity.bvh, with a camera as the first ROOT. */
+static void write_filmed(const char *path) {
+    FILE *in = fopen("tests/data/figure/unity.bvh", "r"), *out = fopen(path, "w");
+    char line[4096];
+    bool motion = false;
+    while (fgets(line, sizeof line, in)) {
+        fprintf(out, "%s%s", motion ? "2 1 " : "", line);
+        if (strstr(line, "HIERARCHY"))
+            fputs("ROOT Camera {\nOFFSET 0 0 0\nCHANNELS 2 Xposition Yrotation\nEnd Site { OFFSET 0 0 1 }\n}\n", out);
+        motion = motion || strstr(line, "Frame Time");
+    }
+    fclose(in);
+    fclose(out);
+}
+
+static void test_two_roots(void) {
+    const char *path = in_folder("filmed.bvh");
+    Rig r;
+    write_filmed(path);
+    OK(rig_roles(&r, path, NULL) && strcmp(rig_joint(&r, ROLE_PELVIS), "Hips") == 0 &&
+           strcmp(rig_joint(&r, ROLE_LEFT_HAND), "LeftHand") == 0,
+       "a performer is found beside a camera");
+    rig_close(&r);
+}
+
 static void test_oddities(void) {
     Rig r;
     OK(rig_roles(&r, "tests/data/figure/swapped.bvh", NULL) &&
@@ -360,6 +385,7 @@ int main(void) {
     test_refused();
     test_not_human();
     test_oddities();
+    test_two_roots();
     test_role_files();
     folder_remove();
     return tap_done();

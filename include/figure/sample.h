@@ -27,8 +27,8 @@ double sample_distance(const Sample *s, int a, int b);
    least three where there are three. Returns their number. */
 int sample_best(const Sample *s, const double *score, int out[SAMPLE_BEST_MAX]);
 
-/* The same for the frames in which a foot most likely stands flat: its tip is low, and the ankle about `rise`
-   (file units) over it. upright: file axes -> Y up. */
+/* The same for the frames in which a foot most likely stands flat: ankle and tip are low, and the ankle is about
+   `rise` (file units) over the tip. upright: file axes -> Y up. */
 int sample_standing(const Sample *s, Mat3 upright, int ankle, int tip, double rise, int out[SAMPLE_BEST_MAX]);
 
 /* The joint below `joint` (end sites too) that lies farthest from it in the first frame of

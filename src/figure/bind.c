@@ -222,15 +222,8 @@ static Vec3 up_the_shin(const Binder *b, Role foot) {
     return vec_unit_or(seen_from(b, b->f->roles.joint[foot], b->f->roles.joint[foot - 1]), vec(0, 1, 0));
 }
 
-/* From the zero pose, where soles are level fore and aft; legs may stand astride there. */
-static Mat3 foot_from_rest(const Binder *b, Role foot, Mat3 rest) {
-    Vec3 along = rest_bone(b->skeleton, b->f, foot);
-    double fall = -vec_dot(along, mat_column(rest, 1));
-    if (fabs(fall) > 0.87 || vec_dot(along, mat_column(rest, 2)) <= 0) return rest;
-    return sole(along, up_the_shin(b, foot), asin(fall));
-}
-
-/* What lies ahead of the ankle and does not move against it: the toe joint, or the tip of a foot without one; or -1. */
+/* What lies ahead of the ankle and does not move against it: the toe joint, or the tip of a foot without one. -1: there
+   is nothing. */
 static int ball(const Binder *b, Role foot) {
     int ankle = b->f->roles.joint[foot], toe = b->f->roles.joint[foot + 1];
     bool ahead = toe >= 0 && vec_len(seen_from(b, ankle, toe)) > SAYS * b->f->height;
@@ -242,19 +235,44 @@ static int standing(const Binder *b, Role foot, int out[SAMPLE_BEST_MAX]) {
     return sample_standing(b->sample, b->f->upright, b->f->roles.joint[foot], ball(b, foot), rise, out);
 }
 
-/* From frames in which the foot stands: how far its line falls there, if that is about as usual. False where
-   the foot has no end, or points along the shin. */
+/* What is up for the sole, in the foot's frame: the vertical where the foot stands, if these frames agree with each other
+   and, about, with the shin; else along the shin. */
+static Vec3 up_of_sole(const Binder *b, Role foot, Vec3 along) {
+    static const double ALIKE = 0.99, NEAR = 0.95; /* cosines, means of them */
+    int frames[SAMPLE_BEST_MAX], n = standing(b, foot, frames);
+    Vec3 shin = up_the_shin(b, foot), up = {0, 0, 0};
+    for (int i = 0; i < n; i++)
+        up = vec_add(up, mat_column(mat_transpose(turn(b, frames[i], b->f->roles.joint[foot])), 1));
+    if (n < 3 || vec_len(up) < ALIKE * n) return shin;
+    Vec3 left = vec_unit_or(vec_cross(up, along), vec(0, 0, 0));
+    return vec_dot(left, vec_unit_or(vec_cross(shin, along), left)) > NEAR ? up : shin;
+}
+
+/* From the zero pose, where soles lie flat. Where the legs stand astride, flat only fore and aft; and some solvers turn
+   feet upside down, which the shin knows. */
+static Mat3 foot_from_rest(const Binder *b, Role foot, Mat3 rest) {
+    static const double ASTRIDE = 0.12; /* sine */
+    Vec3 along = rest_bone(b->skeleton, b->f, foot), up = mat_column(rest, 1);
+    double fall = -vec_dot(along, up);
+    if (fabs(fall) > 0.87 || vec_dot(along, mat_column(rest, 2)) <= 0) return rest;
+    bool astride = fabs(vec_dot(rest_bone(b->skeleton, b->f, foot - 1), mat_column(rest, 0))) > ASTRIDE;
+    bool flipped = vec_dot(vec_cross(up, along), vec_cross(up_the_shin(b, foot), along)) < 0;
+    return sole(along, astride || flipped ? up_of_sole(b, foot, along) : up, asin(fall));
+}
+
+/* From frames in which the foot stands: how far its line falls there, within what is usual. False where the foot has no
+   end, or points along the shin. */
 static bool foot_from_frames(const Binder *b, Role foot, Mat3 *bind) {
     static const double UNUSUAL = 0.2;
     int joint = b->f->roles.joint[foot], tip = ball(b, foot), frames[SAMPLE_BEST_MAX];
     if (tip < 0) return false;
-    Vec3 along = seen_from(b, joint, tip), up = up_the_shin(b, foot);
+    Vec3 along = seen_from(b, joint, tip);
     double size = vec_len(along), slope = 0, usual = asin(clamp(FIGURE_FOOT_RISE * b->f->height / size, 0, 0.7));
     along = vec_scale(along, 1 / size);
-    if (!(size > 0) || vec_len(vec_cross(up, along)) < 0.3) return false;
+    if (!(size > 0) || vec_len(vec_cross(up_the_shin(b, foot), along)) < 0.3) return false;
     int n = standing(b, foot, frames);
     for (int i = 0; i < n; i++) slope += asin(clamp(-mat_apply(turn(b, frames[i], joint), along).y, -1, 1)) / n;
-    *bind = sole(along, up, clamp(slope, usual - UNUSUAL, usual + UNUSUAL));
+    *bind = sole(along, up_of_sole(b, foot, along), clamp(slope, usual - UNUSUAL, usual + UNUSUAL));
     return true;
 }
 

@@ -55,13 +55,11 @@ int sample_best(const Sample *s, const double *score, int out[SAMPLE_BEST_MAX]) 
 }
 
 int sample_standing(const Sample *s, Mat3 upright, int ankle, int tip, double rise, int out[SAMPLE_BEST_MAX]) {
-    double score[SAMPLE_FRAMES_MAX], floor = INFINITY, size = sample_distance(s, ankle, tip) + 1e-300;
-    for (int i = 0; i < s->count; i++) floor = fmin(floor, mat_apply(upright, sample_point(s, i, tip)).y);
+    double score[SAMPLE_FRAMES_MAX];
     for (int i = 0; i < s->count; i++) {
         double low = mat_apply(upright, sample_point(s, i, tip)).y;
         double high = mat_apply(upright, sample_point(s, i, ankle)).y;
-        /* The floor may have steps: what stands higher stands worse, but not more and more so. */
-        score[i] = -fabs(high - low - rise) / size - 0.5 * fmin((low - floor) / size, 1);
+        score[i] = -low - high - 4 * fmax(0, fabs(high - low - rise) - 0.5 * rise);
     }
     return sample_best(s, score, out);
 }

@@ -81,9 +81,11 @@ static bool read_name(Head *h, const char **out, Error *e) {
     return (*out = arena_text(h->o->arena, w.start, (size_t)w.length, e)) != NULL;
 }
 
+/* A camera or a second performer may stand beside the first: the figure is found among all. */
 static bool read_root(Head *h, Error *e) {
     const char *name = NULL;
-    if (h->njoints) return stream_error(&h->o->in, e, "a second ROOT: a file may hold one figure");
+    if (h->open >= 0) return stream_error(&h->o->in, e, "ROOT within joint '%.60s'", joint_name(h, h->open));
+    if (h->njoints) stream_note(&h->o->in, h->o->notes, "another ROOT: one figure is read, --roles can name it");
     return read_name(h, &name, e) && add_joint(h, name, false, e);
 }
 
@@ -193,7 +195,6 @@ static bool read_item(Head *h, Error *e) {
         if ((items[i].inside && h->open < 0) || (at_end && !items[i].in_end))
             return stream_error(s, e, "%s cannot stand %s", items[i].word,
                                 at_end ? "in an End Site" : "outside of a ROOT");
-        if (items[i].read == read_root && h->njoints) return read_root(h, e);
         s->at += w.length;
         return items[i].read(h, e);
     }
