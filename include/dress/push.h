@@ -4,6 +4,7 @@
 
 #include "dress/field.h"
 #include "dress/near.h"
+#include "dress/residual.h"
 #include "dress/surface.h"
 
 /* A mesh vertex near the body, with the level vertices that move it. Private. */
@@ -63,10 +64,13 @@ void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *
 /* Instead of solving: leaves the sheet on the global shape. */
 void push_rest(Push *p, const Sheet *sheet);
 
-/* Asks for more clearance at a vertex (chords of a facet can cut the body although its corners
-   are outside), then push_settle moves those vertices alone. Returns false where the most is
-   reached. */
-bool push_raise(Push *p, int vertex, double by);
+/* Asks for more clearance at a vertex, up to `most` more than others have (metres on 1.70 m). Returns false
+   where it has as much. Vertices that were raised push_settle moves alone. */
+bool push_raise(Push *p, int vertex, double by, double most);
+
+/* Chords can cut the body although their ends are outside. Moves the vertices of a hit, if they were raised, by
+   the least that takes its point out of the part. */
+void push_off(Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit);
 void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
 
 /* Fills what the solution amounts to: active, pinched, displacement. */

@@ -12,13 +12,19 @@ typedef struct {
     CrossingSet edges, triangles;
 } TesterCloth;
 
-/* An edge (n = 2) or triangle of the garment that crosses the body. */
-typedef struct { int n, v[3]; } TesterHit;
+/* An edge (n = 2) or triangle (3) of the garment that crosses a part of the body, and where: the weights of
+   its vertices. */
+typedef struct {
+    int part, n, v[3];
+    double weight[3];
+} TesterHit;
 
 /* A garment mesh in output units, boxed for tests against the body, and room for what is found. */
 typedef struct {
     unsigned own;         /* parts (bits 1 << role) that the garment is worn over */
     int *bad, nbad;       /* vertices that must not be where they are, in the order found */
+    TesterHit *hit;       /* the crossings, likewise; of very many the first */
+    int nhits;
     TesterCloth all;      /* private, as is what follows */
     bool is_stale;        /* its boxes are those of an earlier shape */
     Vec3 *position;
@@ -27,8 +33,6 @@ typedef struct {
     Triangle *some_triangle;
     bool *moves;          /* per vertex */
     Crossing *found;
-    TesterHit *hit;
-    int nhits;
     Box *block;           /* boxes round the vertices */
 } Tester;
 
@@ -47,13 +51,14 @@ void tester_build(Tester *t, Vec3 *position, const Edge *edge, int nedges, const
                   unsigned own);
 
 /* Counts the crossings with the parts in `parts` (bits 1 << role): *own those with parts that the
-   garment is worn over, *other the rest. Appends their garment vertices to t->bad. */
+   garment is worn over, *other the rest. Appends their garment vertices to t->bad, and themselves
+   to t->hit. */
 void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other,
                   CrossingCount *count);
 
 /* Moves n vertices of the mesh: vertex[k] to to[k]. In *own, *other and *count stands what tester_cross, called
-   once since the mesh was built, has counted with the same parts; what changes is counted anew, so that they
-   and t->bad are as if the mesh were built and tested again. */
+   once since the mesh was built, has counted with the same parts; what changes is counted anew, so that they,
+   t->bad and t->hit are as if the mesh were built and tested again. */
 void tester_move(Tester *t, const BodyFrame *body, unsigned parts, const int *vertex, const Vec3 *to, int n,
                  Residual *own, Residual *other, CrossingCount *count);
 

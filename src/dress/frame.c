@@ -29,7 +29,7 @@ static const double CLOSER = 0.6;   /* and left there if that share of the way d
 static const double THROWN = 2;     /* residuals of cloth at the cap count 1 + this */
 static const double NEAR = 0.45;    /* of the cap, in the last attempt */
 static const double HEADWAY = 0.7;  /* of the bad vertices may be left after that, or it is given up */
-static const double RAISE = 0.0015; /* metres of clearance added where an edge still crosses, on 1.70 m */
+static const double RAISE = 0.002;  /* metres of clearance added in a round where something crosses, on 1.70 m */
 
 struct Dresser {
     DressOptions options;
@@ -165,8 +165,8 @@ static Wrong test_raised(Dresser *d, const BodyFrame *body, Wrong w, CrossingCou
 
 static int total(const Residual *r) { return r->edges + r->cloth + r->inside; }
 
-/* One attempt: pushes, tests the mesh, asks for more distance round everything that still crosses
-   a part, until nothing does, or nothing gets better, or a cap. */
+/* One attempt: pushes, tests the mesh, pushes off what still crosses a part and asks for more distance round
+   it, until nothing does, or nothing gets better, or a cap. */
 static Wrong attempt(Dresser *d, const BodyFrame *body, FrameStats *stats, PushResult *result, CrossingCount *count) {
     double start = clock_seconds();
     int before = INT_MAX;
@@ -179,7 +179,9 @@ static Wrong attempt(Dresser *d, const BodyFrame *body, FrameStats *stats, PushR
         stats->push_s += pushed - start;
         w = all_moved ? test_mesh(d, body, count) : test_raised(d, body, w, count);
         bool raised = false, solve = round % SOLVE_EVERY == SOLVE_EVERY - 1;
-        for (int k = 0; k < d->tester.nbad; k++) raised |= push_raise(&d->push, d->tester.bad[k], RAISE);
+        for (int k = 0; k < d->tester.nbad; k++)
+            raised |= push_raise(&d->push, d->tester.bad[k], RAISE, RAISE * (round + 1));
+        for (int k = 0; raised && k < d->tester.nhits; k++) push_off(&d->push, body, &d->sheet, &d->tester.hit[k]);
         start = clock_seconds();
         stats->test_s += start - pushed;
         bool hopeless = solve && (total(&w.own) == 0 || d->tester.nbad > HEADWAY * before);

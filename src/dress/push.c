@@ -339,11 +339,19 @@ static double sweep_all(Push *p, const BodyFrame *body, const Sheet *sheet, Push
     return moved;
 }
 
+static void add_offset(Push *p, const Sheet *sheet, int vertex, Vec3 by, bool *capped) {
+    int place = sheet->place[vertex];
+    Vec3 offset = p->field.offset[place];
+    Vec3 longer = field_limit(vec_add(offset, by), OFFSET_MAX * p->field.scale, capped);
+    p->point[vertex] = vec_add(p->point[vertex], vec_sub(longer, offset));
+    field_set_offset(&p->field, place, longer);
+}
+
 /* Single vertices that the sweeps left too near are moved by their own offset. */
 static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, bool *capped) {
     int place = sheet->place[vertex];
     double clearance = p->clearance[vertex];
-    Vec3 *x = &p->point[vertex];
+    const Vec3 *x = &p->point[vertex];
     if (near_slack(p->near[vertex].least, clearance) > vec_dist(*x, p->near[vertex].seen)) return;
     unsigned near = parts_near(body, parts_at(p, place), *x, clearance), worn = p->lattice->collide[place];
     for (int step = 0; step < SETTLES_MAX && near; step++) {
@@ -355,10 +363,7 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
             double way = way_asked(p, body, place, near, part, *x, clearance, distance, &n);
             if (way <= 0) continue;
             if (!(worn & part_bit(body, part)) && way > OFFSET_MAX * p->field.scale) continue; /* out of reach */
-            Vec3 o = p->field.offset[place];
-            Vec3 longer = field_limit(vec_mad(o, n, way), OFFSET_MAX * p->field.scale, capped);
-            *x = vec_add(*x, vec_sub(longer, o));
-            field_set_offset(&p->field, place, longer);
+            add_offset(p, sheet, vertex, vec_scale(n, way), capped);
             moved = true;
         }
         if (!moved) return;
@@ -389,12 +394,32 @@ void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *
     for (int v = 0; v < sheet->nvertices; v++) settle_vertex(p, body, sheet, v, &result->capped);
 }
 
-bool push_raise(Push *p, int vertex, double by) {
-    double most = (PUSH_MARGIN + RAISE_MAX) * p->field.scale;
-    if (p->clearance[vertex] >= most) return false;
+bool push_raise(Push *p, int vertex, double by, double most) {
+    double limit = (PUSH_MARGIN + fmin(most, RAISE_MAX)) * p->field.scale;
+    if (p->clearance[vertex] >= limit) return false;
     if (p->clearance[vertex] <= PUSH_MARGIN * p->field.scale) p->raised[p->nraised++] = vertex; /* its first time */
-    p->clearance[vertex] = fmin(p->clearance[vertex] + by * p->field.scale, most);
+    p->clearance[vertex] = fmin(p->clearance[vertex] + by * p->field.scale, limit);
     return true;
+}
+
+void push_off(Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit) {
+    double clearance = PUSH_MARGIN * p->field.scale, norm2 = 0;
+    int nearest = 0;
+    bool capped = false;
+    Vec3 x = {0, 0, 0}, n;
+    for (int c = 0; c < hit->n; c++) {
+        bool is_raised = p->clearance[hit->v[c]] > clearance;
+        if (!is_raised || !(parts_at(p, sheet->place[hit->v[c]]) & part_bit(body, hit->part))) return;
+        x = vec_mad(x, p->point[hit->v[c]], hit->weight[c]);
+        norm2 += hit->weight[c] * hit->weight[c];
+        if (hit->weight[c] > hit->weight[nearest]) nearest = c;
+    }
+    double distance = body_frame_distance(body, hit->part, x, clearance, &n);
+    if (distance >= clearance) return; /* another hit has moved it */
+    double way = way_out(p, body, sheet->place[hit->v[nearest]], hit->part, x, clearance, distance, &n);
+    if (way > OFFSET_MAX * p->field.scale) return; /* out of reach */
+    for (int c = 0; c < hit->n; c++)
+        add_offset(p, sheet, hit->v[c], vec_scale(n, way * hit->weight[c] / norm2), &capped);
 }
 
 void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {

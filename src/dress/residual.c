@@ -48,12 +48,47 @@ static void add_bad(Tester *t, const int *v, int n) {
     for (int c = 0; c < n && t->nbad < BAD_MAX; c++) t->bad[t->nbad++] = v[c];
 }
 
+/* How far along the segment from a to b it meets the plane of a triangle, 0..1. */
+static double share_along(Vec3 a, Vec3 b, const Vec3 *position, const int v[3]) {
+    Vec3 n = vec_cross(vec_sub(position[v[1]], position[v[0]]), vec_sub(position[v[2]], position[v[0]]));
+    double above = vec_dot(n, vec_sub(a, position[v[0]])), below = vec_dot(n, vec_sub(position[v[0]], b));
+    return above + below == 0 ? 0.5 : fmin(fmax(above / (above + below), 0), 1);
+}
+
+/* The weights of x, a point of a triangle, at its corners; none is negative. */
+static void weigh_corners(Vec3 x, const Vec3 *position, const int v[3], double weight[3]) {
+    double sum = 0;
+    for (int c = 0; c < 3; c++) {
+        Vec3 to = vec_sub(position[v[(c + 1) % 3]], x), from = vec_sub(position[v[(c + 2) % 3]], x);
+        weight[c] = vec_len(vec_cross(to, from)); /* twice the area across from the corner */
+        sum += weight[c];
+    }
+    for (int c = 0; c < 3; c++) weight[c] = sum > 0 ? weight[c] / sum : 1.0 / 3;
+}
+
+/* An edge of the body through a triangle of the cloth. */
+static TesterHit hit_of_triangle(const Tester *t, const TesterCloth *c, const BodyFrame *body, int part, Crossing x) {
+    const Edge *edge = body->body->skin.edge + body->body->part[part].first_edge + x.edge;
+    Vec3 a = body->position[edge->v[0]], b = body->position[edge->v[1]];
+    const int *v = c->triangle[x.triangle].v;
+    TesterHit hit = {part, 3, {v[0], v[1], v[2]}, {0}};
+    weigh_corners(vec_lerp(a, b, share_along(a, b, t->position, v)), t->position, v, hit.weight);
+    return hit;
+}
+
+/* An edge of the cloth through a triangle of the body. */
+static TesterHit hit_of_edge(const Tester *t, const TesterCloth *c, const BodyFrame *body, int part, Crossing x) {
+    const int *v = c->edge[x.edge].v;
+    const int *triangle = body->body->skin.triangle[body->body->part[part].first_triangle + x.triangle].v;
+    double share = share_along(t->position[v[0]], t->position[v[1]], body->position, triangle);
+    return (TesterHit){part, 2, {v[0], v[1], -1}, {1 - share, share}};
+}
+
 /* Edges (corners = 2) or triangles of the cloth that were found, to the hits and their vertices to the bad. */
-static void add_hits(Tester *t, const TesterCloth *c, int corners, int found) {
+static void add_hits(Tester *t, const TesterCloth *c, const BodyFrame *body, int part, int corners, int found) {
     for (int k = 0; k < found && t->nhits < HITS_MAX; k++) {
-        const int *v = corners == 3 ? c->triangle[t->found[k].triangle].v : c->edge[t->found[k].edge].v;
         TesterHit *hit = &t->hit[t->nhits++];
-        *hit = (TesterHit){corners, {v[0], v[1], corners == 3 ? v[2] : -1}};
+        *hit = (corners == 3 ? hit_of_triangle : hit_of_edge)(t, c, body, part, t->found[k]);
         add_bad(t, hit->v, hit->n);
     }
 }
@@ -65,10 +100,10 @@ static void cross(Tester *t, const TesterCloth *c, const BodyFrame *body, unsign
         if (!(parts & bit)) continue;
         Residual *r = t->own & bit ? own : other;
         int before = count->hits;
-        add_hits(t, c, 3, crossing_find(&body->edges[p], &c->triangles, t->found, FOUND_MAX, count));
+        add_hits(t, c, body, p, 3, crossing_find(&body->edges[p], &c->triangles, t->found, FOUND_MAX, count));
         r->edges += count->hits - before;
         before = count->hits;
-        add_hits(t, c, 2, crossing_find(&c->edges, &body->triangles[p], t->found, FOUND_MAX, count));
+        add_hits(t, c, body, p, 2, crossing_find(&c->edges, &body->triangles[p], t->found, FOUND_MAX, count));
         r->cloth += count->hits - before;
     }
 }
