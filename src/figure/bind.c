@@ -235,8 +235,8 @@ static int standing(const Binder *b, Role foot, int out[SAMPLE_BEST_MAX]) {
     return sample_standing(b->sample, b->f->upright, b->f->roles.joint[foot], ball(b, foot), rise, out);
 }
 
-/* What is up for the sole, in the foot's frame: the vertical where the foot stands, if these frames agree with each other
-   and, about, with the shin; else along the shin. */
+/* What is up for the sole, in the foot's frame: the vertical where the foot stands, if these frames agree with each
+   other and, about, with the shin; else along the shin. */
 static Vec3 up_of_sole(const Binder *b, Role foot, Vec3 along) {
     static const double ALIKE = 0.99, NEAR = 0.95; /* cosines, means of them */
     int frames[SAMPLE_BEST_MAX], n = standing(b, foot, frames);
