@@ -96,10 +96,9 @@ static int choose_upright(const Binder *b, int *out) {
 }
 
 /* Bone-axis rigs put the joints' own axes along and across the body; an estimate of left
-   that comes close to one of them means it. */
-static Mat3 snap_left(Mat3 bind) {
-    Vec3 left = rest_snap(mat_column(bind, 0), 0.95), up = mat_column(bind, 1);
-    return stand_across(left, up);
+   that comes close to one of them means it. cosine: how close, less than the estimate may be off. */
+static Mat3 snap_left(Mat3 bind, double cosine) {
+    return stand_across(rest_snap(mat_column(bind, 0), cosine), mat_column(bind, 1));
 }
 
 /* bind of a joint from frames in which left is the line between two joints and up is the line
@@ -114,7 +113,7 @@ static Mat3 bind_from_line(const Binder *b, const int *frames, int n, Role role,
         Mat3 body = stand_across(line(b, frames[i], right, left), up);
         mean_add(&mean, mat_mul(mat_transpose(turn(b, frames[i], joint)), body));
     }
-    return snap_left(mean_of(&mean));
+    return snap_left(mean_of(&mean), 0.995);
 }
 
 /* bind of a joint that on the mean over the frames stands upright (where bone `like` does, about)
@@ -127,7 +126,7 @@ static Mat3 bind_like(const Binder *b, const int *frames, int n, int joint, Role
         body = stand(mat_column(body, 0), vec_unit_or(up, mat_column(body, 1)));
         mean_add(&mean, mat_mul(mat_transpose(turn(b, frames[i], joint)), body));
     }
-    return snap_left(mean_of(&mean));
+    return snap_left(mean_of(&mean), 0.97);
 }
 
 /* Heads that lean back in every upright frame are bound wrongly: people look ahead, or down.
