@@ -81,8 +81,13 @@ static void dress_garment(const Fitting *f, int g, Pen *pen) {
 /* All rows share the time for the body. */
 static void put_body(const Fitting *f, Pen *pen) {
     Run *r = f->run;
+    int n = r->work->wardrobe->ngarments;
+    if (r->settings->no_body || r->settings->formats == FORMAT_NONE) return;
+    double since = clock_seconds();
     Mesh body = wearer_skin(&f->now->wearer);
-    put(r, pen, "body", f->now->frame.number, &body, &r->result->body_bytes, f->row, r->work->wardrobe->ngarments);
+    double seconds = clock_lap(&since);
+    for (int g = 0; g < n; g++) f->row[g].pose_s += seconds / n;
+    put(r, pen, "body", f->now->frame.number, &body, &r->result->body_bytes, f->row, n);
 }
 
 enum { PIECE_POSE, PIECE_BODY, PIECE_GARMENTS };
@@ -91,7 +96,7 @@ static void do_piece(void *context, int piece, Pen *pen) {
     const Fitting *f = context;
     if (piece >= PIECE_GARMENTS) dress_garment(f, piece - PIECE_GARMENTS, pen);
     else if (piece == PIECE_POSE && f->next) pose_body(f->next);
-    else if (piece == PIECE_BODY && f->row && !f->run->settings->no_body) put_body(f, pen);
+    else if (piece == PIECE_BODY && f->row) put_body(f, pen);
 }
 
 static bool dress_and_pose(Run *r, const Stance *now, Stance *next, StatsRow *row, Error *e) {
