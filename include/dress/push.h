@@ -51,6 +51,9 @@ typedef struct {
 
 MUST_CHECK bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e);
 
+/* Sets how far a level is moved against the next finer one, which moves less cloth: in (0, 1]. */
+void push_weigh(Push *p, double coarser);
+
 /* Remembers on which side of the body every place is: root patches in the bind pose. */
 void push_bind(Push *p, const Patch *root);
 

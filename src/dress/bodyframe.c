@@ -162,16 +162,17 @@ static void find_contacts(BodyFrame *f) {
 /* How far a point of a part's skin, `level` away from it, goes inwards along its normal until what the part gives
    way there is made up for, `left` at the skin itself: the first such place. *n becomes the normal there.
    Distances change no faster than the point moves, so a step as long as what is left to make up for does not pass
-   it; where that shrinks more slowly, steps are longer. What has been passed is found by chords, a point that stays
-   their end twice counting half (Illinois). */
+   it; where that shrinks more slowly, steps are longer. Where that is slight and grows, inside a joint, there is
+   nothing to be gained. What has been passed is found by chords, a point that stays their end twice counting half (Illinois). */
 static double way_in(const BodyFrame *f, int p, Vec3 skin, double level, double left, double most, Vec3 *n) {
     enum { STEPS = 16 };
-    static const double CLOSE = 1e-6, LONGEST = 2; /* metres; times what is left */
+    static const double CLOSE = 1e-6, SLIGHT = 1e-3, LONGEST = 2; /* metres; metres; times what is left */
     Vec3 inwards = vec_scale(*n, -1);
     double out = 0, in = INFINITY, over = 0, way = fmin(left, most);
     for (int k = 0, side = 0; k < STEPS && left > 0; k++) {
         double gap = body_frame_distance(f, p, vec_mad(skin, inwards, way), INFINITY, n) - level;
         if (fabs(gap) <= CLOSE || (gap > 0 && way >= most)) break;
+        if (left < SLIGHT && gap > left && in == INFINITY) return out;
         double shrinks = (left - gap) / (way - out);
         if (gap > 0) {
             over *= side > 0 ? 0.5 : 1;

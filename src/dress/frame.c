@@ -24,7 +24,6 @@ enum { DETAIL_DEFAULT = 8, DEPTH_DEFAULT = 2 };
    vertices that were asked. */
 enum { ROUNDS_MAX = 9, SOLVE_EVERY = 3 };
 enum { MANY = 4 }; /* where more than this part of the vertices has moved, the whole mesh is tested */
-enum { ATTEMPTS = 4 };
 static const double FAR = 0.5;      /* of the cap: cloth moved farther than that is tried anew from its global shape, */
 static const double CLOSER = 0.6;   /* and left there if that share of the way does as well */
 static const double THROWN = 2;     /* residuals of cloth at the cap count 1 + this */
@@ -229,19 +228,28 @@ static void take_back(Dresser *d, const BodyFrame *body, CrossingCount *count) {
     test_mesh(d, body, count);
 }
 
+/* How far a level is moved against the next finer one: in a tight garment less, so that a place that is pinched
+   carries less of its neighbours away; a loose one gives way as a whole. `turned`: the other way. */
+static double coarser_of(const Dresser *d, bool turned) {
+    static const double TIGHT = 0.7, LOOSE = 1;
+    return d->fit.garment->loose != turned ? LOOSE : TIGHT;
+}
+
 /* Where an attempt leaves something of the parts that the garment is worn over, others are made from the
-   global shape alone: as if nothing had been before; with finer patches where that leaves something; and so
-   that nothing may move far, for what has been thrown across a limb comes to rest beside it then. The best
-   stays. */
+   global shape alone: as if nothing had been before; with finer patches where that leaves something; with
+   coarse and fine levels weighed anew; and so that nothing may move far, for what has been thrown across
+   a limb comes to rest beside it then. The best stays. */
+enum { CARRIED, FRESH, FINER, WEIGHED, CLOSE_BY, ATTEMPTS };
 static void prepare(Dresser *d, int attempt, double cap) {
-    if (attempt == 1) {
+    if (attempt == FRESH) {
         leaves_copy(&d->fresh, &d->leaves);
         lay_sheet(d);
-    } else if (d->options.split == SPLIT_ADAPTIVE) {
+    } else if (attempt > FRESH && d->options.split == SPLIT_ADAPTIVE) {
         split_where_bad(d);
     }
-    field_forget(&d->push.field);
-    d->push.field.cap = attempt == ATTEMPTS - 1 ? NEAR * cap : cap;
+    if (attempt > CARRIED) field_forget(&d->push.field);
+    push_weigh(&d->push, coarser_of(d, attempt == WEIGHED));
+    d->push.field.cap = attempt == CLOSE_BY ? NEAR * cap : cap;
 }
 
 typedef struct {
@@ -263,15 +271,16 @@ static bool is_better(const Outcome *a, const Outcome *b, double cap) {
 /* Is attempt k worth making? Where something is left; and the first, which forgets what was carried, where that
    has kept cloth far away. */
 static bool is_wanting(const Outcome *o, int k, bool is_carried, double cap) {
-    return total(&o->wrong.own) > 0 || (k == 1 && is_carried && o->push.displacement > FAR * cap);
+    return total(&o->wrong.own) > 0 || (k == FRESH && is_carried && o->push.displacement > FAR * cap);
 }
 
 static Wrong push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
     Outcome best = {.push = {0}};
     double cap = d->push.field.cap;
     bool is_carried = field_levels(&d->push.field) > 0;
+    prepare(d, CARRIED, cap);
     best.wrong = attempt(d, body, stats, &best.push, count);
-    for (int k = 1; k < ATTEMPTS && is_wanting(&best, k, is_carried, cap); k++) {
+    for (int k = FRESH; k < ATTEMPTS && is_wanting(&best, k, is_carried, cap); k++) {
         Outcome other = {.push.sweeps = best.push.sweeps};
         keep(d);
         prepare(d, k, cap);

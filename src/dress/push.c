@@ -16,7 +16,6 @@ static const double REACH = 0.04;      /* vertices farther from the body are not
 static const double SLACK = 0.1;       /* share of the clearance that may be missing after sweeps; settling makes
                                           up for it */
 static const double PIN_GIVES = 0.2;   /* a pinned level vertex moves this share of what a free one would */
-static const double COARSER = 0.7;     /* mobility of a level against that of the next finer one, which moves less cloth */
 static const double NORM_MIN = 0.1;    /* a sample that level vertices hardly move must not fling them */
 static const double BUDGET = 0.02;     /* a sample may issue twice its first violation and this */
 static const double HEADWAY = 0.6;     /* pushes that get this share of their length nowhere are a pinch */
@@ -47,10 +46,15 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     if (!p->active || !p->mobility || !p->travel || !p->rest || !p->global || !p->point || !p->kept_point ||
         !p->clearance || !p->near || !p->sample || !p->raised)
         return false;
-    for (int level = 0; level <= lattice->depth; level++)
-        for (int v = 0; v < lattice->level[level].count; v++)
-            p->mobility[p->field.start[level] + v] = (lattice->level[level].pinned[v] ? PIN_GIVES : 1) * pow(COARSER, lattice->depth - level);
     return true;
+}
+
+void push_weigh(Push *p, double coarser) {
+    const Lattice *l = p->lattice;
+    for (int level = 0; level <= l->depth; level++)
+        for (int v = 0; v < l->level[level].count; v++)
+            p->mobility[p->field.start[level] + v] =
+                (l->level[level].pinned[v] ? PIN_GIVES : 1) * pow(coarser, l->depth - level);
 }
 
 void push_bind(Push *p, const Patch *root) {
@@ -209,7 +213,8 @@ static bool side_in_fold(const BodyFrame *body, int part, Vec3 x, bool above, Ve
 static bool side_of(const Push *p, const BodyFrame *body, int place, int part, Vec3 x, Vec3 *side) {
     const BodyPart *b = &body->body->part[part];
     Vec3 q = rigid_unapply(b->frame, p->rest[place]);
-    if (q.y < 0 || q.y > b->length) return side_in_fold(body, part, x, q.y < 0, side);
+    if (q.y < 0 || q.y > b->length)
+        return !p->lattice->fit->garment->loose && side_in_fold(body, part, x, q.y < 0, side);
     Section c = body_section_at(b, q.y, NULL);
     *side = mat_apply(body->to_world[part], vec_unit_or(vec(q.x - c.x, 0, q.z - c.z), vec(1, 0, 0)));
     return true;
