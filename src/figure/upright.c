@@ -7,8 +7,9 @@
 
 /* Weights of the witnesses against the body's axis, which has up to 1 in a take of LONG seconds. */
 static const double FLOOR = 0.8, ZERO_POSE = 0.6, MOMENT = 0.5, LONG = 3;
-/* Without a human zero pose y is up in most files, then z; the other four hardly ever. */
-static const double HABIT_Y = 0.3, HABIT_Z = 0.15, ODD = 0.6;
+/* Without a human zero pose y is up in most files, then z; down the same two in some that cameras wrote; x hardly
+   ever, so who lies along it lies. */
+static const double HABIT_Y = 0.3, HABIT_Z = 0.15, DOWN = 0.6, ALONG_X = 1.3;
 /* The lowest joint of one who stands or lies on zero, in parts of hips to shoulders: a toe is over the sole,
    floors are not quite level. Twice as far is no witness. The hips of one who floats about the origin are
    nearer to it than those of one who lies there. */
@@ -70,7 +71,8 @@ char upright_find(const Sample *s, const Figure *f, const Rest *rest, double sec
     for (const char *c = axes; *c; c++) {
         Vec3 axis = axis_of(*c);
         double score = trust * vec_dot(axis, stance.axis) + FLOOR * stands_on_zero(s, f, axis, stance.torso);
-        if (*c != 'y' && *c != 'z') score -= ODD;
+        if (*c == 'Y' || *c == 'Z') score -= DOWN;
+        if (*c == 'x' || *c == 'X') score -= ALONG_X;
         if (rest->human) score += vec_dot(axis, mat_column(rest->frame, 1)) > 0.9 ? ZERO_POSE : 0;
         else score += *c == 'y' ? HABIT_Y : *c == 'z' ? HABIT_Z : 0;
         if (score > best) next = best, best = score, up = *c;
