@@ -27,6 +27,7 @@ enum { MANY = 4 }; /* where more than this part of the vertices has moved, the w
 static const double FAR = 0.5;      /* of the cap: cloth moved farther than that is tried anew from its global shape, */
 static const double CLOSER = 0.6;   /* and left there if that share of the way does as well */
 static const double THROWN = 2;     /* residuals of cloth at the cap count 1 + this */
+static const double HOPELESS = 0.03;/* residuals per edge of the mesh: no attempt has ever mended that many */
 static const double NEAR = 0.45;    /* of the cap, in the last attempt */
 static const double HEADWAY = 0.7;  /* of the bad vertices may be left after that, or it is given up */
 static const double RAISE = 0.002;  /* metres of clearance added in a round where something crosses, on 1.70 m */
@@ -268,10 +269,12 @@ static bool is_better(const Outcome *a, const Outcome *b, double cap) {
     return total(&a->wrong.other) < total(&b->wrong.other) && far_a <= fmax(far_b, FAR);
 }
 
-/* Is attempt k worth making? Where something is left; and the first, which forgets what was carried, where that
-   has kept cloth far away. */
-static bool is_wanting(const Outcome *o, int k, bool is_carried, double cap) {
-    return total(&o->wrong.own) > 0 || (k == FRESH && is_carried && o->push.displacement > FAR * cap);
+/* Is attempt k worth making? Where something is left, but not so much that the body leaves no room at all; and
+   the first, which forgets what was carried, also where that has kept cloth far away. */
+static bool is_wanting(const Dresser *d, const Outcome *o, int k, bool is_carried) {
+    int own = total(&o->wrong.own);
+    if (k == FRESH) return own > 0 || (is_carried && o->push.displacement > FAR * d->push.field.cap);
+    return own > 0 && own <= HOPELESS * d->sheet.nedges;
 }
 
 static Wrong push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
@@ -280,7 +283,7 @@ static Wrong push_and_test(Dresser *d, const BodyFrame *body, FrameStats *stats,
     bool is_carried = field_levels(&d->push.field) > 0;
     prepare(d, CARRIED, cap);
     best.wrong = attempt(d, body, stats, &best.push, count);
-    for (int k = FRESH; k < ATTEMPTS && is_wanting(&best, k, is_carried, cap); k++) {
+    for (int k = FRESH; k < ATTEMPTS && is_wanting(d, &best, k, is_carried); k++) {
         Outcome other = {.push.sweeps = best.push.sweeps};
         keep(d);
         prepare(d, k, cap);
