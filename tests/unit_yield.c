@@ -148,9 +148,10 @@ static void folds_flat(Scene *s) {
             Vec3 inwards = vec_unit_or(vec_add(up, down), along);
             const BodyPart *part = &s->body.part[part_of(s, role)];
             for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++) {
-                Vec3 r = vec_sub(s->posed.position[v], knee), plain = rigid_apply(pose.bone[role], s->body.skin.position[v]);
+                Vec3 skin = rigid_apply(pose.bone[role], s->body.skin.position[v]), now = s->posed.position[v];
+                Vec3 r = vec_sub(now, knee);
                 double in = vec_dot(r, inwards);
-                if (in < 0.075 || in > 0.12 || vec_dist(plain, s->posed.position[v]) < 0.002) continue;
+                if (in < 0.075 || in > 0.12 || vec_dist(skin, now) < 0.002) continue;
                 flat++;
                 least = fmin(least, vec_dot(r, across));
             }

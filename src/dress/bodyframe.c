@@ -163,7 +163,8 @@ static void find_contacts(BodyFrame *f) {
    way there is made up for, `left` at the skin itself: the first such place. *n becomes the normal there.
    Distances change no faster than the point moves, so a step as long as what is left to make up for does not pass
    it; where that shrinks more slowly, steps are longer. Where that is slight and grows, inside a joint, there is
-   nothing to be gained. What has been passed is found by chords, a point that stays their end twice counting half (Illinois). */
+   nothing to be gained. What has been passed is found by chords, a point that stays their end twice counting half
+   (Illinois). */
 static double way_in(const BodyFrame *f, int p, Vec3 skin, double level, double left, double most, Vec3 *n) {
     enum { STEPS = 16 };
     static const double CLOSE = 1e-6, SLIGHT = 1e-3, LONGEST = 2; /* metres; metres; times what is left */
