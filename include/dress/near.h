@@ -19,8 +19,8 @@ typedef struct {
    its place keeps out of. known: those that stand where they were seen stay. */
 void near_find(Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3 *point, double far, bool known);
 
-/* Leaves only the parts that have one of the roles (bits 1 << role). */
-void near_keep(Near *near, const BodyFrame *body, unsigned roles);
+/* Those of near->parts that have one of the roles (bits 1 << role). */
+unsigned near_parts(const Near *near, const BodyFrame *body, unsigned roles);
 
 /* The roles of near->roles whose parts do not hold p for certain. A guess would not do: distances are never more than
    half too long (tests/unit_body.c), and only a half of them is trusted. */

@@ -68,9 +68,11 @@ void near_sum(Near *near, double far) {
         if (near->parts >> part & 1) near->least = fminf(near->least, near->distance[part]);
 }
 
-void near_keep(Near *near, const BodyFrame *body, unsigned roles) {
+unsigned near_parts(const Near *near, const BodyFrame *body, unsigned roles) {
+    unsigned parts = near->parts;
     for (int part = 0; near->parts >> part; part++)
-        if (!(roles & part_bit(body, part))) near->parts &= ~(1u << part);
+        if (!(roles & part_bit(body, part))) parts &= ~(1u << part);
+    return parts;
 }
 
 unsigned near_clear(const Near *near, Vec3 p) {

@@ -123,6 +123,7 @@ static void weigh(const Push *p, const Sheet *sheet, PushSample *s) {
     double weight[4];
     lattice_owner(l, sheet->place[s->vertex], &patch, &i, &j);
     s->n = 0;
+    s->norm2 = 0;
     for (int level = 0; level <= l->depth; level++) {
         lattice_weights(l, level, patch, i, j, id, weight, NULL, NULL);
         for (int k = 0; k < 4; k++) {
@@ -135,6 +136,20 @@ static void weigh(const Push *p, const Sheet *sheet, PushSample *s) {
     }
 }
 
+/* Field by field: what moves it is filled in by weigh(), if ever. */
+static void add_sample(Push *p, int vertex, unsigned parts, double far) {
+    PushSample *s = &p->sample[p->nsamples++];
+    s->vertex = vertex;
+    s->n = -1;
+    s->near = p->near[vertex];
+    s->near.parts = parts;
+    near_sum(&s->near, far);
+    s->asked = 0;
+    s->spent = s->travelled = 0;
+    s->budget = -1;
+    s->net = vec(0, 0, 0);
+}
+
 static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
     double far = (PUSH_MARGIN + REACH) * p->field.scale;
     p->nsamples = 0;
@@ -144,11 +159,8 @@ static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
     near_find(p->near, body, sheet, p->point, far, p->near_known);
     p->near_known = true;
     for (int v = 0; v < sheet->nvertices; v++) {
-        PushSample *s = &p->sample[p->nsamples];
-        *s = (PushSample){.vertex = v, .n = -1, .near = p->near[v], .budget = -1};
-        near_keep(&s->near, body, movers(p, sheet->place[v]));
-        near_sum(&s->near, far);
-        if (s->near.parts) p->nsamples++;
+        unsigned parts = near_parts(&p->near[v], body, movers(p, sheet->place[v]));
+        if (parts) add_sample(p, v, parts, far);
     }
 }
 
