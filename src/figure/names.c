@@ -17,7 +17,7 @@ enum { WORDS_MAX = 16, TOKEN_MAX = 40 };
 static const char *const other[] = {
     "ball", "blade", "bone", "joint", "base", "root", "center", "centre", "mid", "twist", "roll", "bend", "share",
     "def", "org", "mch", "fk", "jnt", "jt", "bip", "rig", "character", "skeleton", "main", "body", "in", "up", "upper",
-    "low", "lower", "fore", "front", "l", "r", "left", "right", "links", "rechts",
+    "low", "lower", "fore", "front",
 };
 static const char *const strangers[] = {
     "end", "nub", "tip", "site", "ik", "pole", "target", "ctrl", "control", "helper", "muscle", "effector", "eff",
@@ -27,6 +27,21 @@ static const char *const strangers[] = {
     "attach", "socket", "camera", "nail", "pec", "rib", "sole", "coat", "cape", "dress", "robe", "scarf", "ribbon",
     "sleeve", "sword", "gun", "bag", "belt", "hat", "horn", "feather",
 };
+
+/* Left and right: in Latin letters as words of a name, in others wherever they stand. */
+typedef struct { const char *word; int side; } Side;
+static const Side sides[] = {
+    {"l", 1}, {"left", 1}, {"links", 1}, {"gauche", 1}, {"izq", 1}, {"izquierda", 1}, {"izquierdo", 1}, {"sx", 1},
+    {"sinistra", 1}, {"sinistro", 1}, {"r", -1}, {"right", -1}, {"rechts", -1}, {"droite", -1}, {"droit", -1},
+    {"der", -1}, {"derecha", -1}, {"derecho", -1}, {"dx", -1}, {"destra", -1}, {"destro", -1},
+};
+static const Side foreign_sides[] = {
+    {"\xe5\xb7\xa6", 1}, {"\xe5\x8f\xb3", -1},                                             /* Japanese, Chinese */
+    {"\xec\x99\xbc", 1}, {"\xec\x98\xa4\xeb\xa5\xb8", -1},                                 /* Korean */
+    {"\xd0\xbb\xd0\xb5\xd0\xb2", 1}, {"\xd0\xbf\xd1\x80\xd0\xb0\xd0\xb2", -1},           /* Russian */
+    {"\xd0\x9b\xd0\xb5\xd0\xb2", 1}, {"\xd0\x9f\xd1\x80\xd0\xb0\xd0\xb2", -1},           /* with a capital */
+};
+enum { NSIDES = sizeof sides / sizeof sides[0], NFOREIGN_SIDES = sizeof foreign_sides / sizeof foreign_sides[0] };
 
 /* A phrase: one word, or two that follow each other. where: 's' says it only of a bone that
    has a side, 'c' only of a central one, 0 of both. */
@@ -130,6 +145,8 @@ static const char *vocabulary(int i) {
     const int nother = sizeof other / sizeof other[0], nstrangers = sizeof strangers / sizeof strangers[0];
     if (i < NPHRASES) return phrases[i].first;
     i -= NPHRASES;
+    if (i < NSIDES) return sides[i].word;
+    i -= NSIDES;
     if (i < nother) return other[i];
     i -= nother;
     return i < nstrangers ? strangers[i] : NULL;
@@ -173,9 +190,8 @@ static bool boundary(const char *s, size_t i) {
 
 static Words split(const char *name) {
     Words words = {0};
-    /* Japanese rigs: the characters for left and right stand in front of the bone. */
-    if (strstr(name, "\xe5\xb7\xa6")) words.side = 1;
-    if (strstr(name, "\xe5\x8f\xb3")) words.side = -1;
+    for (int i = 0; i < NFOREIGN_SIDES; i++)
+        if (strstr(name, foreign_sides[i].word)) words.side = foreign_sides[i].side;
     char token[TOKEN_MAX];
     for (size_t i = 0; name[i];) {
         size_t n = 0;
@@ -192,18 +208,19 @@ static Words split(const char *name) {
 
 static bool is(const char *word, const char *other_word) { return strcmp(word, other_word) == 0; }
 
-/* +1 left, -1 right; the last word that says so (a prefix letter may mean something else). */
-static int side_of(const Words *w) {
-    int side = w->side;
-    for (int i = 0; i < w->count; i++) {
-        if (is(w->word[i], "left") || is(w->word[i], "l") || is(w->word[i], "links")) side = 1;
-        if (is(w->word[i], "right") || is(w->word[i], "r") || is(w->word[i], "rechts")) side = -1;
-    }
-    return side;
+/* +1 left, -1 right, 0 neither. */
+static int side_of_word(const char *word) {
+    for (int i = 0; i < NSIDES; i++)
+        if (is(word, sides[i].word)) return sides[i].side;
+    return 0;
 }
 
-static bool is_side(const char *word) {
-    return is(word, "left") || is(word, "right") || is(word, "l") || is(word, "r");
+/* What the last word says that speaks of a side (a prefix letter may mean something else). */
+static int side_of(const Words *w) {
+    int side = w->side;
+    for (int i = 0; i < w->count; i++)
+        if (side_of_word(w->word[i])) side = side_of_word(w->word[i]);
+    return side;
 }
 
 /* Factor for words that say that this is not the bone itself. */
@@ -230,7 +247,7 @@ NameHint name_hint(const char *name) {
             if ((ph->where == 's' && hint.side == 0) || (ph->where == 'c' && hint.side != 0)) continue;
             for (int i = 0; i < w.count; i++) {
                 int j = i + 1; /* UpperLeftArm: a side may stand between the two */
-                if (pass == 2 && j + 1 < w.count && is_side(w.word[j])) j++;
+                if (pass == 2 && j + 1 < w.count && side_of_word(w.word[j])) j++;
                 if (used[i] || !is(w.word[i], ph->first)) continue;
                 if (pass == 2 && (j >= w.count || !is(w.word[j], ph->second))) continue;
                 taken[i] = true;
