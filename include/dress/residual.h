@@ -29,6 +29,7 @@ typedef struct {
     bool is_stale;        /* its boxes are those of an earlier shape */
     Vec3 *position;
     TesterCloth some;     /* those with a vertex that moves */
+    int some_edges_most, some_triangles_most;
     Edge *some_edge;
     Triangle *some_triangle;
     bool *moves;          /* per vertex */

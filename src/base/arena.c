@@ -1,13 +1,13 @@
-/* A chain of blocks, each twice as large as the one before; reset keeps them. The system gives blocks
-   full of zeros, and large ones without memory behind them until it is used: only what has been
-   handed out before is cleared. */
+/* A chain of blocks, each twice as large as the one before, up to a few megabytes; reset keeps them. The
+   system gives blocks full of zeros, and large ones without memory behind them until it is used: only what
+   has been handed out before is cleared. */
 #include "base/arena.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { ALIGN = 64, FIRST_BLOCK = 64 * 1024 };
+enum { ALIGN = 64, FIRST_BLOCK = 64 << 10, LARGE_BLOCK = 4 << 20 };
 
 struct ArenaBlock {
     ArenaBlock *next;
@@ -23,6 +23,7 @@ static bool is_beyond(const Arena *a, size_t size) { return a->limit && a->held 
 
 static ArenaBlock *new_block(Arena *a, size_t need) {
     size_t size = a->current ? a->current->size * 2 : FIRST_BLOCK;
+    if (size > LARGE_BLOCK) size = LARGE_BLOCK;
     if (size < need || is_beyond(a, size)) size = need;
     if (is_beyond(a, size)) return NULL;
     ArenaBlock *b = calloc(1, HEAD + size);

@@ -9,6 +9,7 @@
 
 enum { FOUND_MAX = 1 << 14, BAD_MAX = 3 * FOUND_MAX, HITS_MAX = BAD_MAX / 2 };
 enum { BLOCK = 16 }; /* vertices that share a box */
+enum { SOME = 8 };   /* there is room to move this part of all edges and triangles */
 
 static bool reserve_sets(TesterCloth *c, int edges, int triangles, Arena *arena, Error *e) {
     return crossing_reserve(&c->edges, edges, arena, e) && crossing_reserve(&c->triangles, triangles, arena, e);
@@ -20,10 +21,13 @@ bool tester_reserve(Tester *t, int edges, int triangles, Arena *arena, Error *e)
     t->bad = ARENA_NEW(arena, int, BAD_MAX, e);
     t->block = ARENA_NEW(arena, Box, edges / BLOCK + 1, e); /* a mesh has more edges than vertices */
     t->moves = ARENA_NEW(arena, bool, edges, e);
-    t->some_edge = ARENA_NEW(arena, Edge, edges, e);
-    t->some_triangle = ARENA_NEW(arena, Triangle, triangles, e);
+    t->some_edges_most = edges / SOME + 1;
+    t->some_triangles_most = triangles / SOME + 1;
+    t->some_edge = ARENA_NEW(arena, Edge, t->some_edges_most, e);
+    t->some_triangle = ARENA_NEW(arena, Triangle, t->some_triangles_most, e);
     return t->found && t->hit && t->bad && t->block && t->moves && t->some_edge && t->some_triangle &&
-           reserve_sets(&t->all, edges, triangles, arena, e) && reserve_sets(&t->some, edges, triangles, arena, e);
+           reserve_sets(&t->all, edges, triangles, arena, e) && 
+           reserve_sets(&t->some, t->some_edges_most, t->some_triangles_most, arena, e);
 }
 
 static void box(TesterCloth *c, const Vec3 *position) {
@@ -123,16 +127,26 @@ static bool any_moves(const Tester *t, const int *v, int n) {
     return any;
 }
 
-static void find_some(Tester *t) {
+/* False where there is no room for so many. */
+static bool find_some(Tester *t) {
     const TesterCloth *all = &t->all;
     TesterCloth *some = &t->some;
-    some->edge = t->some_edge;
-    some->triangle = t->some_triangle;
-    some->nedges = some->ntriangles = 0;
+    int edges = 0, triangles = 0;
     for (int k = 0; k < all->nedges; k++)
-        if (any_moves(t, all->edge[k].v, 2)) t->some_edge[some->nedges++] = all->edge[k];
+        if (any_moves(t, all->edge[k].v, 2)) {
+            if (edges == t->some_edges_most) return false;
+            t->some_edge[edges++] = all->edge[k];
+        }
     for (int k = 0; k < all->ntriangles; k++)
-        if (any_moves(t, all->triangle[k].v, 3)) t->some_triangle[some->ntriangles++] = all->triangle[k];
+        if (any_moves(t, all->triangle[k].v, 3)) {
+            if (triangles == t->some_triangles_most) return false;
+            t->some_triangle[triangles++] = all->triangle[k];
+        }
+    some->edge = t->some_edge;
+    some->nedges = edges;
+    some->triangle = t->some_triangle;
+    some->ntriangles = triangles;
+    return true;
 }
 
 /* Counts what those that move cross, where they are now. sign: 1, -1 to take it back. */
@@ -150,6 +164,14 @@ static void count_some(Tester *t, const BodyFrame *body, unsigned parts, int sig
     count->pairs_tested += sign * c.pairs_tested;
 }
 
+static void cross_anew(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other,
+                       CrossingCount *count) {
+    own->edges = own->cloth = other->edges = other->cloth = 0;
+    *count = (CrossingCount){0};
+    t->nbad = t->nhits = 0;
+    tester_cross(t, body, parts, own, other, count);
+}
+
 /* The hits of the others. */
 static void forget_hits(Tester *t) {
     int n = 0;
@@ -163,13 +185,18 @@ static void forget_hits(Tester *t) {
 void tester_move(Tester *t, const BodyFrame *body, unsigned parts, const int *vertex, const Vec3 *to, int n,
                  Residual *own, Residual *other, CrossingCount *count) {
     for (int k = 0; k < n; k++) t->moves[vertex[k]] = vec_dist(t->position[vertex[k]], to[k]) > 0;
-    find_some(t);
-    count_some(t, body, parts, -1, own, other, count);
-    forget_hits(t);
-    for (int k = 0; k < n; k++) t->position[vertex[k]] = to[k];
-    count_some(t, body, parts, 1, own, other, count);
-    for (int k = 0; k < n; k++) t->moves[vertex[k]] = false;
+    bool fits = find_some(t);
+    if (fits) {
+        count_some(t, body, parts, -1, own, other, count);
+        forget_hits(t);
+    }
+    for (int k = 0; k < n; k++) {
+        t->position[vertex[k]] = to[k];
+        t->moves[vertex[k]] = false;
+    }
     t->is_stale = true;
+    if (fits) count_some(t, body, parts, 1, own, other, count);
+    else cross_anew(t, body, parts, own, other, count);
 }
 
 /* --- inside --- */
