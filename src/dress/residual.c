@@ -26,7 +26,7 @@ bool tester_reserve(Tester *t, int edges, int triangles, Arena *arena, Error *e)
     t->some_edge = ARENA_NEW(arena, Edge, t->some_edges_most, e);
     t->some_triangle = ARENA_NEW(arena, Triangle, t->some_triangles_most, e);
     return t->found && t->hit && t->bad && t->block && t->moves && t->some_edge && t->some_triangle &&
-           reserve_sets(&t->all, edges, triangles, arena, e) && 
+           reserve_sets(&t->all, edges, triangles, arena, e) &&
            reserve_sets(&t->some, t->some_edges_most, t->some_triangles_most, arena, e);
 }
 
