@@ -46,7 +46,9 @@ static bool is_shin(Role r) { return r == ROLE_LEFT_SHIN || r == ROLE_RIGHT_SHIN
    fold against each other do they press. */
 static bool share_joint(Role a, Role b) {
     if (a > b) return share_joint(b, a);
-    return role_limb(a) == role_limb(b) ? b - a == 1 : role_limb(a) == 0 && is_upper(b);
+    if (role_limb(a) == role_limb(b)) return b - a == 1;
+    bool is_leg = role_limb(b) == role_limb(ROLE_LEFT_THIGH) || role_limb(b) == role_limb(ROLE_RIGHT_THIGH);
+    return is_upper(b) && a == (is_leg ? ROLE_PELVIS : ROLE_CHEST);
 }
 
 void yield_contact(Role a, Role b, double scale, Contact *of_a, Contact *of_b) {
