@@ -1,0 +1,272 @@
+/* The local deformation of one frame: attempts to push the cloth off the body, until one leaves nothing that shows.
+
+   attempt    push, test the mesh as it would be written, ask for more distance round what is found, and so
+              on to a cap
+   prepare    what the next attempt does otherwise, where one has left something
+   raise_flat the last word: no facet folds over so far that the text of a file leaves nothing of it */
+#include "dress/solve.h"
+
+#include <limits.h>
+
+#include "base/clock.h"
+#include "geometry/flat.h"
+
+/* Rounds of asking for more distance; every third time the whole surface gives way, not only the
+   vertices that were asked. */
+enum { ROUNDS_MAX = 9, SOLVE_EVERY = 3 };
+enum { MANY = 4 }; /* where more than this part of the vertices has moved, the whole mesh is tested */
+static const double FAR = 0.5;      /* of the cap: cloth moved farther than that is tried anew from its global shape, */
+static const double CLOSER = 0.6;   /* and left there if that share of the way does as well */
+static const double THROWN = 2;     /* residuals of cloth at the cap count 1 + this */
+static const double HOPELESS = 0.03;/* residuals per edge of the mesh: no attempt has ever mended that many */
+static const double NEAR = 0.45;    /* of the cap, in the last attempt */
+static const double HEADWAY = 0.7;  /* of the bad vertices may be left after that, or it is given up */
+static const double RAISE = 0.002;  /* metres of clearance added in a round where something crosses, on 1.70 m */
+enum { FLAT_ROUNDS = 4, FLAT_MOST = 256 };
+static const double FLAT = 5e-6;    /* metres: no facet is left less high than that */
+
+bool solver_reserve(Solver *s, const Fit *fit, const Lattice *lattice, const DressOptions *options, Arena *arena,
+                    Error *e) {
+    *s = (Solver){.fit = fit,
+                  .may_split = options->split == SPLIT_ADAPTIVE,
+                  .fixed_topology = options->fixed_topology};
+    int triangles = 2 * fit->npatches * lattice->side * lattice->side, places = lattice->nplaces;
+    if (!leaves_reserve(&s->leaves, lattice, arena, e) || !leaves_reserve(&s->fresh, lattice, arena, e) ||
+        !leaves_reserve(&s->kept, lattice, arena, e) || !leaves_reserve(&s->grid, lattice, arena, e) ||
+        !sheet_reserve(&s->sheet, lattice, arena, e) || !push_reserve(&s->push, lattice, arena, e) ||
+        !tester_reserve(&s->tester, 3 * triangles, triangles, arena, e))
+        return false;
+    s->position = ARENA_NEW(arena, Vec3, places, e);
+    s->moved = ARENA_NEW(arena, Vec3, places, e);
+    s->clear = ARENA_NEW(arena, unsigned, places, e);
+    leaves_fill(&s->grid, lattice->depth);
+    return s->position && s->moved && s->clear;
+}
+
+/* The points that a reader of the file gets. */
+static void snap_points(Solver *s, double unit) {
+    for (int v = 0; v < s->sheet.nvertices; v++) {
+        Vec3 p = vec_scale(s->push.point[v], unit);
+        s->position[v] = mesh_snap_point(p);
+    }
+    tester_build(&s->tester, s->position, s->sheet.edge, s->sheet.nedges, s->sheet.triangle, s->sheet.ntriangles,
+                 s->fit->collide);
+}
+
+static void add_count(CrossingCount *sum, const CrossingCount *c) {
+    sum->pairs_all += c->pairs_all;
+    sum->pairs_tested += c->pairs_tested;
+    sum->hits += c->hits;
+}
+
+/* What s->tester holds, against all that the garment keeps out of. */
+static Wrong test_built(Solver *s, const BodyFrame *body, const Vec3 *position, int nvertices, const unsigned *clear,
+                        CrossingCount *count) {
+    Wrong w = {0};
+    tester_cross(&s->tester, body, s->fit->collide | s->fit->outside, &w.own, &w.other, &w.count);
+    tester_inside(&s->tester, body, position, nvertices, clear, &w.own, &w.other);
+    add_count(count, &w.count);
+    return w;
+}
+
+static Wrong test_mesh(Solver *s, const BodyFrame *body, CrossingCount *count) {
+    snap_points(s, body->unit);
+    push_clear(&s->push, &s->sheet, s->clear);
+    return test_built(s, body, s->position, s->sheet.nvertices, s->clear, count);
+}
+
+/* The same, where the last test has found w, and since then n vertices have moved to where s->moved says. */
+static Wrong test_moved(Solver *s, const BodyFrame *body, const int *vertex, int n, const unsigned *clear, Wrong w,
+                        CrossingCount *count) {
+    tester_move(&s->tester, body, s->fit->collide | s->fit->outside, vertex, s->moved, n, &w.own, &w.other, &w.count);
+    w.own.inside = w.other.inside = 0;
+    w.own.deepest = w.other.deepest = 0;
+    tester_inside(&s->tester, body, s->position, s->sheet.nvertices, clear, &w.own, &w.other);
+    add_count(count, &w.count);
+    return w;
+}
+
+static Wrong test_raised(Solver *s, const BodyFrame *body, Wrong w, CrossingCount *count) {
+    int n = s->push.nraised;
+    for (int k = 0; k < n; k++)
+        s->moved[k] = mesh_snap_point(vec_scale(s->push.point[s->push.raised[k]], body->unit));
+    push_clear(&s->push, &s->sheet, s->clear);
+    return test_moved(s, body, s->push.raised, n, s->clear, w, count);
+}
+
+static int total(const Residual *r) { return r->edges + r->cloth + r->inside; }
+
+/* One attempt: pushes, tests the mesh, pushes off what still crosses a part and asks for more distance round
+   it, until nothing does, or nothing gets better, or a cap. */
+static Wrong attempt(Solver *s, const BodyFrame *body, FrameStats *stats, PushResult *result, CrossingCount *count) {
+    double start = clock_seconds();
+    int before = INT_MAX;
+    bool all_moved = true;
+    Wrong w = {0};
+    push_start(&s->push, s->root, &s->leaves, &s->sheet);
+    push_solve(&s->push, body, &s->sheet, result);
+    for (int round = 0;; round++) {
+        double pushed = clock_seconds();
+        stats->push_s += pushed - start;
+        w = all_moved ? test_mesh(s, body, count) : test_raised(s, body, w, count);
+        bool raised = false, solve = round % SOLVE_EVERY == SOLVE_EVERY - 1;
+        for (int k = 0; k < s->tester.nbad; k++)
+            raised |= push_raise(&s->push, s->tester.bad[k], RAISE, RAISE * (round + 1));
+        for (int k = 0; raised && k < s->tester.nhits; k++) push_off(&s->push, body, &s->sheet, &s->tester.hit[k]);
+        start = clock_seconds();
+        stats->test_s += start - pushed;
+        bool hopeless = solve && (total(&w.own) == 0 || s->tester.nbad > HEADWAY * before);
+        if (!raised || round == ROUNDS_MAX || hopeless) {
+            push_measure(&s->push, body, &s->sheet, result);
+            return w;
+        }
+        (solve ? push_solve : push_settle)(&s->push, body, &s->sheet, result);
+        if (solve) before = s->tester.nbad;
+        all_moved = solve || s->push.nraised > s->sheet.nvertices / MANY;
+    }
+}
+
+static void lay_sheet(Solver *s) { tessellate(&s->sheet, s->fixed_topology ? &s->grid : &s->leaves); }
+
+/* Splits to the deepest level round every vertex that must not be where it is. */
+static void split_where_bad(Solver *s) {
+    const Lattice *l = s->push.lattice;
+    const LatticeStep *step = l->level[l->depth].step;
+    int patch, i, j;
+    for (int k = 0; k < s->tester.nbad; k++) {
+        lattice_owner(l, s->sheet.place[s->tester.bad[k]], &patch, &i, &j);
+        leaves_split(&s->leaves, patch, l->depth, step[i].cell, step[j].cell);
+    }
+    lay_sheet(s);
+}
+
+/* The state of the last attempt, to take back after another. The test is made anew for what the tester holds. */
+static void keep(Solver *s) {
+    push_keep(&s->push, s->sheet.nvertices);
+    leaves_copy(&s->leaves, &s->kept);
+}
+
+static void take_back(Solver *s, const BodyFrame *body, CrossingCount *count) {
+    push_back(&s->push);
+    leaves_copy(&s->kept, &s->leaves);
+    lay_sheet(s);
+    test_mesh(s, body, count);
+}
+
+/* How far a level is moved against the next finer one: in a tight garment less, so that a place that is pinched
+   carries less of its neighbours away; a loose one gives way as a whole. `turned`: the other way. */
+static double coarser_of(const Solver *s, bool turned) {
+    static const double TIGHT = 0.7, LOOSE = 1;
+    return s->fit->garment->loose != turned ? LOOSE : TIGHT;
+}
+
+/* Where an attempt leaves something of the parts that the garment is worn over, others are made from the
+   global shape alone: as if nothing had been before; with finer patches where that leaves something; with
+   coarse and fine levels weighed anew; and so that nothing may move far, for what has been thrown across
+   a limb comes to rest beside it then. The best stays. */
+enum { CARRIED, FRESH, FINER, WEIGHED, CLOSE_BY, ATTEMPTS };
+static void prepare(Solver *s, int attempt, double cap) {
+    if (attempt == FRESH) {
+        leaves_copy(&s->fresh, &s->leaves);
+        lay_sheet(s);
+    } else if (attempt > FRESH && s->may_split) {
+        split_where_bad(s);
+    }
+    if (attempt > CARRIED) field_forget(&s->push.field);
+    push_weigh(&s->push, coarser_of(s, attempt == WEIGHED));
+    s->push.field.cap = attempt == CLOSE_BY ? NEAR * cap : cap;
+}
+
+typedef struct {
+    Wrong wrong;
+    PushResult push;
+} Outcome;
+
+/* Parts that the garment is worn over count first: nothing of them may show. Among outcomes that leave some, and
+   among those that do not, cloth that has been thrown far counts too. */
+static bool is_better(const Outcome *a, const Outcome *b, double cap) {
+    int own_a = total(&a->wrong.own), own_b = total(&b->wrong.own);
+    double far_a = a->push.displacement / cap, far_b = b->push.displacement / cap;
+    if (own_a > 0 && own_b > 0) return own_a * (1 + THROWN * far_a) < own_b * (1 + THROWN * far_b);
+    if (own_a + own_b > 0) return own_a == 0;
+    if (far_b > FAR && far_a < CLOSER * far_b) return true;
+    return total(&a->wrong.other) < total(&b->wrong.other) && far_a <= fmax(far_b, FAR);
+}
+
+/* Is attempt k worth making? Where something is left, but not so much that the body leaves no room at all; and
+   the first, which forgets what was carried, also where that has kept cloth far away. */
+static bool is_wanting(const Solver *s, const Outcome *o, int k, bool is_carried) {
+    int own = total(&o->wrong.own);
+    if (k == FRESH) return own > 0 || (is_carried && o->push.displacement > FAR * s->push.field.cap);
+    return own > 0 && own <= HOPELESS * s->sheet.nedges;
+}
+
+static Wrong push_and_test(Solver *s, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
+    Outcome best = {.push = {0}};
+    double cap = s->push.field.cap;
+    bool is_carried = field_levels(&s->push.field) > 0;
+    prepare(s, CARRIED, cap);
+    best.wrong = attempt(s, body, stats, &best.push, count);
+    for (int k = FRESH; k < ATTEMPTS && is_wanting(s, &best, k, is_carried); k++) {
+        Outcome other = {.push.sweeps = best.push.sweeps};
+        keep(s);
+        prepare(s, k, cap);
+        other.wrong = attempt(s, body, stats, &other.push, count);
+        if (is_better(&other, &best, cap)) {
+            best = other;
+        } else {
+            take_back(s, body, count);
+            best.push.sweeps = other.push.sweeps;
+        }
+    }
+    s->push.field.cap = cap;
+    stats->capped = total(&best.wrong.own) + total(&best.wrong.other) > 0 || best.push.capped;
+    stats->sweeps = best.push.sweeps;
+    stats->active = best.push.active;
+    stats->pinched = best.push.pinched;
+    stats->displacement = best.push.displacement;
+    return best.wrong;
+}
+
+/* Facets that fold over pass a moment at which text would leave nothing of them, or a vertex on the side of
+   another: there a corner steps aside by some hundredths of a millimetre. */
+static Wrong raise_flat(Solver *s, const BodyFrame *body, Wrong w, FrameStats *stats, CrossingCount *count) {
+    double start = clock_seconds();
+    for (int round = 0; round < FLAT_ROUNDS; round++) {
+        int aside[FLAT_MOST], n = flat_find(s->position, s->sheet.triangle, s->sheet.ntriangles, FLAT * body->unit,
+                                            round, aside, s->moved, FLAT_MOST);
+        if (n == 0) break;
+        for (int k = 0; k < n; k++) s->moved[k] = mesh_snap_point(s->moved[k]);
+        w = test_moved(s, body, aside, n, NULL, w, count);
+    }
+    stats->test_s += clock_seconds() - start;
+    return w;
+}
+
+/* Nothing but the global deformation, tested like all. */
+static Wrong rest_and_test(Solver *s, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
+    double start = clock_seconds();
+    push_start(&s->push, s->root, &s->leaves, &s->sheet);
+    push_rest(&s->push, &s->sheet);
+    Wrong w = test_mesh(s, body, count);
+    stats->test_s += clock_seconds() - start;
+    return w;
+}
+
+Wrong solver_frame(Solver *s, const BodyFrame *body, const Patch *root, double dt, bool restart, bool is_global,
+                   FrameStats *stats, CrossingCount *count) {
+    double start = clock_seconds();
+    s->root = root;
+    leaves_copy(&s->leaves, &s->fresh);
+    field_carry(&s->push.field, body, dt, restart || is_global, &s->leaves);
+    lay_sheet(s);
+    stats->mesh_s = clock_seconds() - start;
+    Wrong w = (is_global ? rest_and_test : push_and_test)(s, body, stats, count);
+    return raise_flat(s, body, w, stats, count);
+}
+
+Wrong solver_test(Solver *s, const BodyFrame *body, const Mesh *mesh, CrossingCount *count) {
+    tester_build(&s->tester, mesh->position, mesh->edge, mesh->nedges, mesh->triangle, mesh->ntriangles,
+                 s->fit->collide);
+    return test_built(s, body, mesh->position, mesh->nvertices, NULL, count);
+}
