@@ -129,7 +129,7 @@ ALWAYS void sixteen(const BodyPart *part, const Rigid *to_part, const Vec3 *poin
     before_planes(part, &p, &p, distance, &up);
     for (int i = 0; i < LANES; i++) leans |= near[i] & (distance[i] < far) & (fabs(up.y[i]) > BODY_LEANING);
     if (leans) look_again(part, &p, far, distance, &up);
-    for (int i = 0; i < n; i++) out[i] = near[i] & (distance[i] < far) ? distance[i] : far;
+    for (int i = 0; i < n; i++) out[i] = (near[i] & (distance[i] < far)) ? distance[i] : far;
     for (int i = 0; normal && i < n; i++) normal[i] = vec(up.x[i], up.y[i], up.z[i]);
 }
 
