@@ -7,7 +7,7 @@
 
 #include "geometry/boxtree.h"
 
-enum { FOUND_MAX = 1 << 14, BAD_MAX = 3 * FOUND_MAX, HITS_MAX = BAD_MAX / 2 };
+enum { FOUND_MAX = 1 << 13, BAD_MAX = 3 * FOUND_MAX, HITS_MAX = BAD_MAX / 2 };
 enum { BLOCK = 16 }; /* vertices that share a box */
 enum { SOME = 8 };   /* there is room to move this part of all edges and triangles */
 
