@@ -19,6 +19,8 @@ typedef struct {
     double travelled;                 /* what it had gone at most by then (Push.travel) */
 } PushSample;
 
+enum { MARKS_MAX = 1024 };
+
 /* The displacement and the solver's memory. */
 typedef struct {
     const Lattice *lattice;
@@ -41,6 +43,8 @@ typedef struct {
     PushSample *sample;
     int nsamples;
     int *raised, nraised;             /* mesh vertices that were asked for more */
+    Vec3 was_offset[MARKS_MAX], was_point[MARKS_MAX]; /* per raised vertex: when push_mark was called, */
+    int nmarked;                      /* when there were so many */
 } Push;
 
 typedef struct {
@@ -75,6 +79,10 @@ bool push_raise(Push *p, int vertex, double by, double most);
    the least that takes its point out of the part. */
 void push_off(Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit);
 void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
+
+/* Remembers where the raised vertices are, and puts them back there; false where there were too many. */
+void push_mark(Push *p, const Sheet *sheet);
+bool push_unsettle(Push *p, const Sheet *sheet);
 
 /* Fills what the solution amounts to: active, pinched, displacement. */
 void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);

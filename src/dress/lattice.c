@@ -72,8 +72,9 @@ static void number_places(Lattice *l, int *corner) {
 }
 
 /* Colliders and pins of the places. A place on a shared edge keeps out of what both patches keep
-   out of: at a crotch, where the legs themselves touch, nothing else can be asked. Where two
-   patches have nothing in common it keeps out of both's. */
+   out of: at a crotch, where the legs themselves touch, nothing else can be asked. What only one of
+   them is worn over comes to it from outside, if it comes so to the other. Where two patches have
+   nothing in common it keeps out of both's. */
 static void mark_places(Lattice *l) {
     for (int place = 0; place < l->nplaces; place++) l->collide[place] = ~0u;
     for (int p = 0; p < l->fit->npatches; p++)
@@ -90,9 +91,11 @@ static void mark_places(Lattice *l) {
         l->collide[place] &= ~UNSHARED;
         l->outside[place] = ~l->collide[place];
     }
-    for (int p = 0; p < l->fit->npatches; p++)
+    for (int p = 0; p < l->fit->npatches; p++) {
+        unsigned keeps_out_of = l->fit->patch[p].collide | l->fit->patch[p].outside;
         for (int i = 0; i <= l->side; i++)
-            for (int j = 0; j <= l->side; j++) l->outside[*slot(l, p, i, j)] &= l->fit->patch[p].outside;
+            for (int j = 0; j <= l->side; j++) l->outside[*slot(l, p, i, j)] &= keeps_out_of;
+    }
     for (int p = 0; p < l->fit->npatches; p++) {
         const FitPatch *patch = &l->fit->patch[p];
         for (int s = 0; s < 4; s++)

@@ -375,11 +375,16 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
         bool moved = false;
         for (int part = 0; near >> part; part++) {
             if (!(near >> part & 1)) continue;
-            Vec3 n;
-            double distance = body_frame_distance(body, part, *x, clearance, &n);
+            Vec3 n, plain;
+            double distance = body_frame_distance(body, part, *x, clearance, &n), most = OFFSET_MAX * p->field.scale;
+            plain = n;
             double way = way_asked(p, body, place, near, part, *x, clearance, distance, &n);
             if (way <= 0) continue;
-            if (!(worn & part_bit(body, part)) && way > OFFSET_MAX * p->field.scale) continue; /* out of reach */
+            if (!(worn & part_bit(body, part)) && way > most) { /* the way into the garment is too far: the nearest */
+                way = clearance - distance;
+                n = plain;
+                if (way > most) continue;
+            }
             add_offset(p, sheet, vertex, vec_scale(n, way), capped);
             moved = true;
         }
@@ -441,6 +446,22 @@ void push_off(Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHi
 
 void push_settle(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
     for (int k = 0; k < p->nraised; k++) settle_vertex(p, body, sheet, p->raised[k], &result->capped);
+}
+
+void push_mark(Push *p, const Sheet *sheet) {
+    p->nmarked = p->nraised;
+    for (int k = 0; k < p->nmarked && k < MARKS_MAX; k++) {
+        p->was_offset[k] = p->field.offset[sheet->place[p->raised[k]]];
+        p->was_point[k] = p->point[p->raised[k]];
+    }
+}
+
+bool push_unsettle(Push *p, const Sheet *sheet) {
+    for (int k = 0; k < p->nmarked && p->nmarked <= MARKS_MAX; k++) {
+        field_set_offset(&p->field, sheet->place[p->raised[k]], p->was_offset[k]);
+        p->point[p->raised[k]] = p->was_point[k];
+    }
+    return p->nmarked <= MARKS_MAX;
 }
 
 void push_clear(const Push *p, const Sheet *sheet, unsigned *clear) {

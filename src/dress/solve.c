@@ -97,11 +97,12 @@ static Wrong test_raised(Solver *s, const BodyFrame *body, Wrong w, CrossingCoun
 static int total(const Residual *r) { return r->edges + r->cloth + r->inside; }
 
 /* One attempt: pushes, tests the mesh, pushes off what still crosses a part and asks for more distance round
-   it, until nothing does, or nothing gets better, or a cap. */
+   it, until nothing does, or nothing gets better, or a cap. What a limb from outside is left with is not mended
+   at the price of a part that the garment is worn over. */
 static Wrong attempt(Solver *s, const BodyFrame *body, FrameStats *stats, PushResult *result, CrossingCount *count) {
     double start = clock_seconds();
     int before = INT_MAX;
-    bool all_moved = true;
+    bool all_moved = true, was_clean = false;
     Wrong w = {0};
     push_start(&s->push, s->root, &s->leaves, &s->sheet);
     push_solve(&s->push, body, &s->sheet, result);
@@ -109,13 +110,17 @@ static Wrong attempt(Solver *s, const BodyFrame *body, FrameStats *stats, PushRe
         double pushed = clock_seconds();
         stats->push_s += pushed - start;
         w = all_moved ? test_mesh(s, body, count) : test_raised(s, body, w, count);
+        bool is_clean = total(&w.own) == 0;
+        bool is_spoilt = was_clean && !is_clean && push_unsettle(&s->push, &s->sheet);
+        if (is_spoilt) w = test_raised(s, body, w, count);
         bool raised = false, solve = round % SOLVE_EVERY == SOLVE_EVERY - 1;
-        for (int k = 0; k < s->tester.nbad; k++)
+        for (int k = 0; !is_spoilt && k < s->tester.nbad; k++)
             raised |= push_raise(&s->push, s->tester.bad[k], RAISE, RAISE * (round + 1));
+        push_mark(&s->push, &s->sheet);
         for (int k = 0; raised && k < s->tester.nhits; k++) push_off(&s->push, body, &s->sheet, &s->tester.hit[k]);
         start = clock_seconds();
         stats->test_s += start - pushed;
-        bool hopeless = solve && (total(&w.own) == 0 || s->tester.nbad > HEADWAY * before);
+        bool hopeless = solve && (is_clean || s->tester.nbad > HEADWAY * before);
         if (!raised || round == ROUNDS_MAX || hopeless) {
             push_measure(&s->push, body, &s->sheet, result);
             return w;
@@ -123,6 +128,7 @@ static Wrong attempt(Solver *s, const BodyFrame *body, FrameStats *stats, PushRe
         (solve ? push_solve : push_settle)(&s->push, body, &s->sheet, result);
         if (solve) before = s->tester.nbad;
         all_moved = solve || s->push.nraised > s->sheet.nvertices / MANY;
+        was_clean = is_clean;
     }
 }
 
