@@ -124,14 +124,18 @@ else
     skip 'a disk that is read-only' 'cannot mount one'
 fi
 
-# Inputs that go or change while they are read
+# Inputs that go or change while they are read: not before, for a file that was cut by then is a shorter motion.
 gone() {
-    local n pid code
+    local n t pid code
     for ((n = 0; n < 5; n++)); do
         rm -rf out.d
         cp in/long.bvh kept.bvh
         "$KITSUKE" dress "${args[@]}" -o out.d -q 2>err &
         pid=$!
+        for ((t = 0; t < 500; t++)); do
+            [ ! -e out.d/long ] || break
+            sleep 0.01
+        done
         sleep "0.$(printf '%03d' $((RANDOM % (lasts < 900 ? lasts : 900))))"
         if [ $((n % 2)) -eq 0 ]; then rm in/long.bvh; else head -c 5000 kept.bvh >in/long.bvh; fi
         code=0
