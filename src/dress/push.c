@@ -51,10 +51,11 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
 
 void push_weigh(Push *p, double coarser) {
     const Lattice *l = p->lattice;
-    for (int level = 0; level <= l->depth; level++)
+    for (int level = 0; level <= l->depth; level++) {
+        double of_level = pow(coarser, l->depth - level);
         for (int v = 0; v < l->level[level].count; v++)
-            p->mobility[p->field.start[level] + v] =
-                (l->level[level].pinned[v] ? PIN_GIVES : 1) * pow(coarser, l->depth - level);
+            p->mobility[p->field.start[level] + v] = (l->level[level].pinned[v] ? PIN_GIVES : 1) * of_level;
+    }
 }
 
 void push_bind(Push *p, const Patch *root) {
