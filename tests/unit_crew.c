@@ -6,34 +6,11 @@
 #include <string.h>
 
 #include "folder.h"
+#include "hall.h"
 #include "sheet.h"
 #include "tap.h"
 
-enum { ROUNDS = 200, PIECES = 5, HELPERS = 3 };
-
-typedef struct {
-    pthread_mutex_t lock;
-    pthread_cond_t change;
-    Press press;
-    bool is_over;
-    atomic_int by_helpers;
-} Hall;
-
-/* A thread without a motion, as in app/batch.c. */
-static void *help(void *context) {
-    Hall *hall = context;
-    Pen pen = {0};
-    pthread_mutex_lock(&hall->lock);
-    hall->press.helpers++;
-    while (!hall->is_over) {
-        if (crew_help(&hall->press, &pen)) hall->by_helpers++;
-        else if (!press_help(&hall->press, &pen)) pthread_cond_wait(&hall->change, &hall->lock);
-    }
-    hall->press.helpers--;
-    pthread_mutex_unlock(&hall->lock);
-    pen_free(&pen);
-    return NULL;
-}
+enum { ROUNDS = 200, PIECES = 5 };
 
 typedef struct {
     Press *press;
@@ -90,11 +67,9 @@ int main(void) {
     static Work alone, helped;
     Arena arena = {0};
     Error e = {0};
-    Hall hall = {.is_over = false};
-    pthread_t helper[HELPERS];
+    Hall hall;
     if (!folder_make()) return 1;
-    pthread_mutex_init(&hall.lock, NULL);
-    pthread_cond_init(&hall.change, NULL);
+    hall_open(&hall);
 
     OK(press_open(&hall.press, 1, &hall.lock, &hall.change, &arena, &e), "a press for one thread");
     OK(run_all(&hall.press, folder, &alone, &e) == 0 && e.kind == ERR_NONE && alone.most == 1,
@@ -102,7 +77,7 @@ int main(void) {
     press_close(&hall.press);
 
     OK(press_open(&hall.press, HELPERS + 1, &hall.lock, &hall.change, &arena, &e), "a press for four threads");
-    for (int i = 0; i < HELPERS; i++) pthread_create(&helper[i], NULL, help, &hall);
+    hall_fill(&hall);
     OK(run_all(&hall.press, folder, &helped, &e) == 0 && e.kind == ERR_NONE, "helped: each piece is done once");
     OK(hall.by_helpers > 0 && helped.most > 1, "helpers did %d of %d pieces, up to %d at a time", hall.by_helpers,
        ROUNDS * PIECES, helped.most);
@@ -112,11 +87,7 @@ int main(void) {
     run_all(&hall.press, in_folder("none"), &helped, &e);
     OK(e.kind == ERR_OUTPUT, "a piece that cannot write is told: %s", e.text);
 
-    pthread_mutex_lock(&hall.lock);
-    hall.is_over = true;
-    pthread_cond_broadcast(&hall.change);
-    pthread_mutex_unlock(&hall.lock);
-    for (int i = 0; i < HELPERS; i++) pthread_join(helper[i], NULL);
+    hall_empty(&hall);
     press_close(&hall.press);
     arena_free(&arena);
     folder_remove();

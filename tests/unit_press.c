@@ -5,31 +5,11 @@
 #include <string.h>
 
 #include "folder.h"
+#include "hall.h"
 #include "sheet.h"
 #include "tap.h"
 
-enum { FRAMES = 60, HELPERS = 3 };
-
-typedef struct {
-    pthread_mutex_t lock;
-    pthread_cond_t change;
-    Press press;
-    bool is_over;
-} Hall;
-
-/* A thread without a motion, as in app/batch.c. */
-static void *help(void *context) {
-    Hall *hall = context;
-    Pen pen = {0};
-    pthread_mutex_lock(&hall->lock);
-    hall->press.helpers++;
-    while (!hall->is_over)
-        if (!press_help(&hall->press, &pen)) pthread_cond_wait(&hall->change, &hall->lock);
-    hall->press.helpers--;
-    pthread_mutex_unlock(&hall->lock);
-    pen_free(&pen);
-    return NULL;
-}
+enum { FRAMES = 60 };
 
 typedef struct { long long bytes; StatsRow row[2]; PressTally tally; Error error; bool all_put; } Outcome;
 
@@ -75,12 +55,10 @@ static int wrong_files(int first) {
 int main(void) {
     Arena arena = {0};
     Error e = {0};
-    Hall hall = {.is_over = false};
+    Hall hall;
     Outcome alone, helped, failed;
-    pthread_t helper[HELPERS];
     if (!folder_make()) return 1;
-    pthread_mutex_init(&hall.lock, NULL);
-    pthread_cond_init(&hall.change, NULL);
+    hall_open(&hall);
 
     OK(press_open(&hall.press, 1, &hall.lock, &hall.change, &arena, &e), "a press for one thread");
     put_all(&hall.press, folder, 1, &alone);
@@ -90,7 +68,7 @@ int main(void) {
     press_close(&hall.press);
 
     OK(press_open(&hall.press, HELPERS + 1, &hall.lock, &hall.change, &arena, &e), "a press for four threads");
-    for (int i = 0; i < HELPERS; i++) pthread_create(&helper[i], NULL, help, &hall);
+    hall_fill(&hall);
     put_all(&hall.press, folder, 1001, &helped);
     OK(helped.all_put && helped.tally.waiting == 0 && wrong_files(1001) == 0, "helped: each mesh is in its file");
     OK(helped.bytes > 0 && helped.row[0].write_s > 0 && helped.row[0].write_s == helped.row[1].write_s,
@@ -98,11 +76,7 @@ int main(void) {
     put_all(&hall.press, in_folder("none"), 1, &failed);
     OK(failed.error.kind == ERR_OUTPUT && failed.tally.waiting == 0, "helped: a missing folder is told: %s",
        failed.error.text);
-    pthread_mutex_lock(&hall.lock);
-    hall.is_over = true;
-    pthread_cond_broadcast(&hall.change);
-    pthread_mutex_unlock(&hall.lock);
-    for (int i = 0; i < HELPERS; i++) pthread_join(helper[i], NULL);
+    hall_empty(&hall);
     press_close(&hall.press);
     arena_free(&arena);
     folder_remove();
