@@ -58,6 +58,9 @@ void lattice_owner(const Lattice *l, int place, int *patch, int *i, int *j);
 /* A place on the root patches. */
 Vec3 lattice_point(const Lattice *l, const Patch *root, int place);
 
+/* Outward unit normal of the root patches at a place. */
+Vec3 lattice_normal(const Lattice *l, const Patch *root, int place);
+
 /* The up to four level-l vertices that move a place and their weights; du, dw (may be NULL): the
    weights' derivatives by the patch parameters. patch, i, j as in `owner`. */
 void lattice_weights(const Lattice *l, int level, int patch, int i, int j, int vertex[4], double weight[4],

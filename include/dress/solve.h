@@ -3,8 +3,8 @@
 #define DRESS_SOLVE_H
 
 #include "dress/frame.h"
-#include "dress/push.h"
 #include "dress/residual.h"
+#include "dress/settle.h"
 
 /* What is wrong with the mesh as it would be written, and what finding that has cost; vertices that must not
    be where they are stand in the tester's list of bad ones. */
@@ -23,6 +23,7 @@ typedef struct {
     Leaves grid;             /* what is tessellated under a fixed topology */
     Sheet sheet;
     Push push;
+    Settler settler;
     Tester tester;
     Vec3 *position;          /* of the sheet's vertices as they are written: output units, snapped */
     Vec3 *moved;             /* positions of the vertices that have moved since a test */

@@ -73,7 +73,7 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
     if (!facing_reserve(&d->facing, places, triangles, arena, e)) return false;
     Pose rest = figure_rest_pose();
     follow_pose(&d->follower, &rest, d->root);
-    push_bind(&d->solver.push, d->root);
+    escape_bind(&d->solver.push.escape, d->root);
     if (options->method == METHOD_PAPER && !literal_reserve(&d->literal, &d->lattice, body, arena, e)) return false;
     *out = d;
     return true;

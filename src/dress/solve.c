@@ -34,6 +34,7 @@ bool solver_reserve(Solver *s, const Fit *fit, const Lattice *lattice, const Dre
     if (!leaves_reserve(&s->leaves, lattice, arena, e) || !leaves_reserve(&s->fresh, lattice, arena, e) ||
         !leaves_reserve(&s->kept, lattice, arena, e) || !leaves_reserve(&s->grid, lattice, arena, e) ||
         !sheet_reserve(&s->sheet, lattice, arena, e) || !push_reserve(&s->push, lattice, arena, e) ||
+        !settle_reserve(&s->settler, lattice, arena, e) ||
         !tester_reserve(&s->tester, 3 * triangles, triangles, arena, e))
         return false;
     s->position = ARENA_NEW(arena, Vec3, places, e);
@@ -87,11 +88,17 @@ static Wrong test_moved(Solver *s, const BodyFrame *body, const int *vertex, int
 }
 
 static Wrong test_raised(Solver *s, const BodyFrame *body, Wrong w, CrossingCount *count) {
-    int n = s->push.nraised;
-    for (int k = 0; k < n; k++)
-        s->moved[k] = mesh_snap_point(vec_scale(s->push.point[s->push.raised[k]], body->unit));
+    int n = s->settler.nraised;
+    const int *raised = s->settler.raised;
+    for (int k = 0; k < n; k++) s->moved[k] = mesh_snap_point(vec_scale(s->push.point[raised[k]], body->unit));
     push_clear(&s->push, &s->sheet, s->clear);
-    return test_moved(s, body, s->push.raised, n, s->clear, w, count);
+    return test_moved(s, body, raised, n, s->clear, w, count);
+}
+
+/* The surface as a whole, then what that leaves of every vertex. */
+static void push_all(Solver *s, const BodyFrame *body, PushResult *result) {
+    push_solve(&s->push, body, &s->sheet, result);
+    settle_all(&s->push, body, &s->sheet, &result->capped);
 }
 
 static int total(const Residual *r) { return r->edges + r->cloth + r->inside; }
@@ -105,19 +112,20 @@ static Wrong attempt(Solver *s, const BodyFrame *body, FrameStats *stats, PushRe
     bool all_moved = true, was_clean = false;
     Wrong w = {0};
     push_start(&s->push, s->root, &s->leaves, &s->sheet);
-    push_solve(&s->push, body, &s->sheet, result);
+    settle_start(&s->settler);
+    push_all(s, body, result);
     for (int round = 0;; round++) {
         double pushed = clock_seconds();
         stats->push_s += pushed - start;
         w = all_moved ? test_mesh(s, body, count) : test_raised(s, body, w, count);
         bool is_clean = total(&w.own) == 0;
-        bool is_spoilt = was_clean && !is_clean && push_unsettle(&s->push, &s->sheet);
+        bool is_spoilt = was_clean && !is_clean && settle_back(&s->settler, &s->push, &s->sheet);
         if (is_spoilt) w = test_raised(s, body, w, count);
         bool raised = false, solve = round % SOLVE_EVERY == SOLVE_EVERY - 1;
         for (int k = 0; !is_spoilt && k < s->tester.nbad; k++)
-            raised |= push_raise(&s->push, s->tester.bad[k], RAISE, RAISE * (round + 1));
-        push_mark(&s->push, &s->sheet);
-        for (int k = 0; raised && k < s->tester.nhits; k++) push_off(&s->push, body, &s->sheet, &s->tester.hit[k]);
+            raised |= settle_raise(&s->settler, &s->push, s->tester.bad[k], RAISE, RAISE * (round + 1));
+        settle_mark(&s->settler, &s->push, &s->sheet);
+        for (int k = 0; raised && k < s->tester.nhits; k++) settle_hit(&s->push, body, &s->sheet, &s->tester.hit[k]);
         start = clock_seconds();
         stats->test_s += start - pushed;
         bool hopeless = solve && (is_clean || s->tester.nbad > HEADWAY * before);
@@ -125,9 +133,10 @@ static Wrong attempt(Solver *s, const BodyFrame *body, FrameStats *stats, PushRe
             push_measure(&s->push, body, &s->sheet, result);
             return w;
         }
-        (solve ? push_solve : push_settle)(&s->push, body, &s->sheet, result);
+        if (solve) push_all(s, body, result);
+        else settle_raised(&s->settler, &s->push, body, &s->sheet, &result->capped);
         if (solve) before = s->tester.nbad;
-        all_moved = solve || s->push.nraised > s->sheet.nvertices / MANY;
+        all_moved = solve || s->settler.nraised > s->sheet.nvertices / MANY;
         was_clean = is_clean;
     }
 }

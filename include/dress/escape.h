@@ -1,0 +1,37 @@
+/* The way out of a part of the body for one point of the cloth: in which direction, and how far. */
+#ifndef DRESS_ESCAPE_H
+#define DRESS_ESCAPE_H
+
+#include "dress/bodyframe.h"
+#include "dress/lattice.h"
+
+/* What tells on which side of the body the places of a garment belong. */
+typedef struct {
+    const Lattice *lattice;
+    Vec3 *rest;            /* per place: in the bind pose; world, metres */
+    const Patch *root;     /* of this frame */
+} Escape;
+
+/* A point of the cloth that is to keep its distance from the parts. */
+typedef struct {
+    int place;
+    Vec3 at;               /* where it is now; world, metres */
+    unsigned near;         /* parts (bits 1 << part) that leave it room or not */
+    double clearance;      /* the distance, metres, */
+    double slack;          /* of which this share may be missing */
+} EscapePoint;
+
+MUST_CHECK bool escape_reserve(Escape *s, const Lattice *lattice, Arena *arena, Error *e);
+
+/* Remembers on which side of the body every place is: root patches in the bind pose. */
+void escape_bind(Escape *s, const Patch *root);
+
+/* How far p, `distance` away from a part, must go along *n, the part's outward unit normal there, to be `wanted`
+   away from it; metres. Turns *n where it leads to the wrong side. */
+double escape_way(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, double wanted,
+                  double distance, Vec3 *n);
+
+/* The same for its clearance, or as far as there is room. 0: it may stay. */
+double escape_asked(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, double distance, Vec3 *n);
+
+#endif

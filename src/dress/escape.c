@@ -1,0 +1,121 @@
+/* The nearest way out of a part, along its normal, is the right one for cloth that has just sunk in. Where a limb
+   lies across the cloth, or two parts meet, it is not: it may lead through the limb to its other side, into the
+   other part, or out of the garment. So the normal is turned by what is known of the place: on which side of
+   the body it was at rest, and which parts it is worn over; and of two parts that face each other each asks for
+   half of the room. */
+#include "dress/escape.h"
+
+enum { STEPS_OUT = 6 };
+static const double CLOSE_ENOUGH = 0.1; /* share of the distance wanted that may be missing along a turned normal */
+static const double OPPOSITE = -0.2;    /* cosine: normals of parts between which cloth is squeezed */
+static const double WRONG_SIDE = 0.5;   /* cosine to the side at rest below which the normal is bent towards it */
+static const double OUTWARDS = 0.3;     /* cosine: a limb from outside that would push cloth this much out of itself
+                                           pushes it straight in */
+
+bool escape_reserve(Escape *s, const Lattice *lattice, Arena *arena, Error *e) {
+    *s = (Escape){.lattice = lattice};
+    s->rest = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
+    return s->rest != NULL;
+}
+
+void escape_bind(Escape *s, const Patch *root) {
+    for (int place = 0; place < s->lattice->nplaces; place++) s->rest[place] = lattice_point(s->lattice, root, place);
+}
+
+/* Is p worn over a part, or does that come to it from outside? */
+static bool is_own(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part) {
+    return s->lattice->collide[p->place] & part_bit(body, part);
+}
+
+/* The distance to ask for from a part with outward normal n at p, `distance` away from it: the clearance, but where
+   another part stands opposite no more than half the room between the two. Where there is none, a part that comes
+   from outside asks for nothing. */
+static double room_for(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, double distance,
+                       Vec3 n) {
+    double far = 2 * p->clearance - distance;
+    int opposite = -1;
+    for (int other = 0; p->near >> other; other++) {
+        Vec3 m;
+        if (other == part || !(p->near >> other & 1)) continue;
+        double d = body_frame_distance(body, other, p->at, far, &m);
+        if (d >= far || vec_dot(n, m) >= OPPOSITE) continue;
+        far = d;
+        opposite = other;
+    }
+    if (distance + far > 0) return 0.5 * (distance + far);
+    bool yields = opposite >= 0 && is_own(s, body, p, opposite) && !is_own(s, body, p, part);
+    return yields ? distance : p->clearance;
+}
+
+/* A place that belongs to the other bone of a fold, and is in it: the side is the plane between the two. */
+static bool side_in_fold(const BodyFrame *body, int part, Vec3 x, bool above, Vec3 *side) {
+    const Contacts *c = &body->contacts[part];
+    for (int k = 0; k < c->n; k++) {
+        const Fold *fold = &c->contact[k].fold;
+        if (fold->bottom <= 0 || (c->contact[k].other < part) != above) continue;
+        *side = vec_scale(fold->across, -1);
+        return vec_dot(vec_sub(x, fold->centre), fold->inwards) > 0;
+    }
+    return false;
+}
+
+/* A foot stands across the leg of trousers: it has no side along it. */
+static bool has_side(Role role) {
+    return role != ROLE_LEFT_FOOT && role != ROLE_RIGHT_FOOT && role != ROLE_LEFT_TOE && role != ROLE_RIGHT_TOE;
+}
+
+/* The side of a part on which p belongs. Along the part: where its place was in the bind pose, as seen from the
+   part's axis. Past a bent joint that means nothing; false where there is no telling. Unit; world. */
+static bool side_of(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, Vec3 *side) {
+    const BodyPart *b = &body->body->part[part];
+    if (!has_side(b->role)) return false;
+    Vec3 q = rigid_unapply(b->frame, s->rest[p->place]);
+    if (q.y < 0 || q.y > b->length)
+        return !s->lattice->fit->garment->loose && side_in_fold(body, part, p->at, q.y < 0, side);
+    Section c = body_section_at(b, q.y, NULL);
+    *side = mat_apply(body->to_world[part], vec_unit_or(vec(q.x - c.x, 0, q.z - c.z), vec(1, 0, 0)));
+    return true;
+}
+
+/* Turns *n, the normal of a part at p; returns whether it has. For a part that the cloth is worn over: towards the
+   side where the place belongs. A part that comes from outside never pushes cloth out of the garment: the
+   other leg of trousers is left at that; for an arm the normal is bent into the garment, the more the less it
+   leads there, so that one that sweeps through does not throw cloth to one side and then to the other. */
+static bool turn_inside(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, Vec3 *n) {
+    if (is_own(s, body, p, part)) {
+        Vec3 side;
+        if (!side_of(s, body, p, part, &side)) return false;
+        double turn = 2 * (1 - smoothstep(-WRONG_SIDE, WRONG_SIDE, vec_dot(*n, side)));
+        if (turn > 0) *n = vec_unit_or(vec_mad(*n, side, turn), side);
+        return turn > 0;
+    }
+    Vec3 outwards = lattice_normal(s->lattice, s->root, p->place);
+    if (s->lattice->fit->collide & part_bit(body, part)) {
+        if (vec_dot(*n, outwards) <= OUTWARDS) return false;
+        *n = vec_scale(outwards, -1);
+        return true;
+    }
+    double turn = smoothstep(-1, OUTWARDS, vec_dot(*n, outwards));
+    *n = vec_unit_or(vec_mad(vec_scale(*n, 1 - turn), outwards, -turn), vec_scale(outwards, -1));
+    return turn > 0;
+}
+
+/* Along a turned normal the distance does not grow as fast as the way: it is found in steps. */
+double escape_way(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, double wanted,
+                  double distance, Vec3 *n) {
+    double way = wanted - distance;
+    if (!turn_inside(s, body, p, part, n)) return way;
+    for (int k = 0; k < STEPS_OUT; k++) {
+        double d = body_frame_distance(body, part, vec_mad(p->at, *n, way), wanted, NULL);
+        if (d >= wanted - CLOSE_ENOUGH * wanted) break;
+        way += wanted - d;
+    }
+    return way;
+}
+
+double escape_asked(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, double distance, Vec3 *n) {
+    double least = p->slack * p->clearance; /* less than that is no violation */
+    if (p->clearance - distance <= least) return 0;
+    double wanted = room_for(s, body, p, part, distance, *n);
+    return wanted - distance <= least ? 0 : escape_way(s, body, p, part, wanted, distance, n);
+}

@@ -1,0 +1,130 @@
+/* A field that is smooth between level vertices cannot serve every vertex of the mesh: a chord across a bulge, an arm
+   that touches a skirt. What is missing then is small, and asked of the vertex itself, after all else: an
+   offset of its own, no longer than would be seen as a spike. */
+#include "dress/settle.h"
+
+enum { STEPS_MAX = 4 };
+static const double RAISE_MAX = 0.015; /* most extra clearance, and */
+static const double OFFSET_MAX = 0.03; /* longest offset: more would be a spike; metres on 1.70 m */
+
+bool settle_reserve(Settler *s, const Lattice *lattice, Arena *arena, Error *e) {
+    *s = (Settler){.nraised = 0};
+    s->raised = ARENA_NEW(arena, int, lattice->nplaces, e);
+    return s->raised != NULL;
+}
+
+void settle_start(Settler *s) { s->nraised = s->nmarked = 0; }
+
+/* All that a place keeps out of. Arms that touch a skirt dent it by single vertices: coarse displacements for
+   them and for the legs would fight. */
+static unsigned parts_at(const Push *p, int place) {
+    const Lattice *l = p->field.lattice;
+    return l->collide[place] | l->outside[place];
+}
+
+/* Parts of `roles` (bits 1 << role) that lie within `far` of x: bits 1 << part. */
+static unsigned parts_near(const BodyFrame *body, unsigned roles, Vec3 x, double far) {
+    unsigned near = 0;
+    for (int k = 0; k < body->body->nparts; k++)
+        if (roles & part_bit(body, k) && body_frame_unpressed(body, k, x, far) < far) near |= 1u << k;
+    return near;
+}
+
+static void add_offset(Push *p, const Sheet *sheet, int vertex, Vec3 by, bool *capped) {
+    int place = sheet->place[vertex];
+    Vec3 offset = p->field.offset[place];
+    Vec3 longer = field_limit(vec_add(offset, by), OFFSET_MAX * p->field.scale, capped);
+    p->point[vertex] = vec_add(p->point[vertex], vec_sub(longer, offset));
+    field_set_offset(&p->field, place, longer);
+}
+
+/* The step that takes a vertex at `at` out of a part; false where there is none to take. From a part that comes from
+   outside, where the way into the garment is too far, it is the nearest one. */
+static bool step_out(const Push *p, const BodyFrame *body, const EscapePoint *at, int part, Vec3 *step) {
+    Vec3 n, plain;
+    double distance = body_frame_distance(body, part, at->at, at->clearance, &plain);
+    double most = OFFSET_MAX * p->field.scale;
+    n = plain;
+    double way = escape_asked(&p->escape, body, at, part, distance, &n);
+    if (way <= 0) return false;
+    if (!(p->field.lattice->collide[at->place] & part_bit(body, part)) && way > most) {
+        way = at->clearance - distance;
+        n = plain;
+        if (way > most) return false;
+    }
+    *step = vec_scale(n, way);
+    return true;
+}
+
+static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, bool *capped) {
+    EscapePoint at = {.place = sheet->place[vertex], .at = p->point[vertex], .clearance = p->clearance[vertex]};
+    const Near *seen = &p->near[vertex];
+    if (near_slack(seen->least, at.clearance) > vec_dist(at.at, seen->seen)) return;
+    at.near = parts_near(body, parts_at(p, at.place), at.at, at.clearance);
+    bool moved = true;
+    for (int step = 0; step < STEPS_MAX && moved; step++) {
+        moved = false;
+        for (int part = 0; at.near >> part; part++) {
+            Vec3 by;
+            if (!(at.near >> part & 1) || !step_out(p, body, &at, part, &by)) continue;
+            add_offset(p, sheet, vertex, by, capped);
+            at.at = p->point[vertex];
+            moved = true;
+        }
+    }
+}
+
+void settle_all(Push *p, const BodyFrame *body, const Sheet *sheet, bool *capped) {
+    for (int v = 0; v < sheet->nvertices; v++) settle_vertex(p, body, sheet, v, capped);
+}
+
+void settle_raised(const Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, bool *capped) {
+    for (int k = 0; k < s->nraised; k++) settle_vertex(p, body, sheet, s->raised[k], capped);
+}
+
+static bool is_raised(const Push *p, int vertex) { return p->clearance[vertex] > PUSH_MARGIN * p->field.scale; }
+
+bool settle_raise(Settler *s, Push *p, int vertex, double by, double most) {
+    double limit = (PUSH_MARGIN + fmin(most, RAISE_MAX)) * p->field.scale;
+    if (p->clearance[vertex] >= limit) return false;
+    if (!is_raised(p, vertex)) s->raised[s->nraised++] = vertex;
+    p->clearance[vertex] = fmin(p->clearance[vertex] + by * p->field.scale, limit);
+    return true;
+}
+
+void settle_hit(Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit) {
+    EscapePoint at = {.clearance = PUSH_MARGIN * p->field.scale};
+    double norm2 = 0;
+    int nearest = 0;
+    bool capped = false;
+    Vec3 n;
+    for (int c = 0; c < hit->n; c++) {
+        if (!is_raised(p, hit->v[c]) || !(parts_at(p, sheet->place[hit->v[c]]) & part_bit(body, hit->part))) return;
+        at.at = vec_mad(at.at, p->point[hit->v[c]], hit->weight[c]);
+        norm2 += hit->weight[c] * hit->weight[c];
+        if (hit->weight[c] > hit->weight[nearest]) nearest = c;
+    }
+    at.place = sheet->place[hit->v[nearest]];
+    double distance = body_frame_distance(body, hit->part, at.at, at.clearance, &n);
+    if (distance >= at.clearance) return; /* another hit has moved it */
+    double way = escape_way(&p->escape, body, &at, hit->part, at.clearance, distance, &n);
+    if (way > OFFSET_MAX * p->field.scale) return; /* out of reach */
+    for (int c = 0; c < hit->n; c++)
+        add_offset(p, sheet, hit->v[c], vec_scale(n, way * hit->weight[c] / norm2), &capped);
+}
+
+void settle_mark(Settler *s, const Push *p, const Sheet *sheet) {
+    s->nmarked = s->nraised;
+    for (int k = 0; k < s->nmarked && k < MARKED_MOST; k++) {
+        s->was_offset[k] = p->field.offset[sheet->place[s->raised[k]]];
+        s->was_point[k] = p->point[s->raised[k]];
+    }
+}
+
+bool settle_back(const Settler *s, Push *p, const Sheet *sheet) {
+    for (int k = 0; k < s->nmarked && s->nmarked <= MARKED_MOST; k++) {
+        field_set_offset(&p->field, sheet->place[s->raised[k]], s->was_offset[k]);
+        p->point[s->raised[k]] = s->was_point[k];
+    }
+    return s->nmarked <= MARKED_MOST;
+}
