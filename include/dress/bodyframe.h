@@ -5,6 +5,10 @@
 #include "dress/yield.h"
 #include "geometry/crossing.h"
 
+/* How far a vertex of the skin has to give way, and its distance from the part where nothing presses: next to
+   nothing. Private. */
+typedef struct { double by, level; } Give;
+
 typedef struct {
     const Body *body;
     Vectors vectors;               /* to measure many distances with */
@@ -18,6 +22,8 @@ typedef struct {
     Mat3 to_world[BODY_PARTS_MAX]; /* part frame -> world, directions */
     Box box[BODY_PARTS_MAX];       /* of each part; world, metres; a little larger than it */
     Contacts contacts[BODY_PARTS_MAX]; /* what each part gives way to in this pose */
+    double room;                   /* that parts leave between them, metres */
+    Give *give;                    /* per vertex of the skin */
     CrossingSet edges[BODY_PARTS_MAX], triangles[BODY_PARTS_MAX];
     double seconds;                /* that posing took */
 } BodyFrame;

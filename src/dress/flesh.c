@@ -1,0 +1,152 @@
+/* Two parts whose boxes are near each other ask for their distances from each other's skin: sixteen vertices at a
+   time, and each pair once. Where anything is nearer than the room that cloth needs they are a contact, and the same
+   distances say how far the skin has to give way. */
+#include "dress/flesh.h"
+
+#include "geometry/boxtree.h"
+
+enum { BLOCK = 16 };
+
+/* Vertices of a part's skin. */
+typedef struct {
+    int n, vertex[BLOCK];
+    Vec3 skin[BLOCK];
+} Block;
+
+static void add(Block *block, int vertex, Vec3 skin) {
+    block->vertex[block->n] = vertex;
+    block->skin[block->n++] = skin;
+}
+
+/* The vertices of a part from *v on that the box of another is near to. False where there are none left. */
+static bool gather(const BodyFrame *f, int part, int other, int *v, Block *out) {
+    const BodyPart *p = &f->body->part[part];
+    int end = p->first_vertex + p->nvertices;
+    out->n = 0;
+    for (; *v < end && out->n < BLOCK; ++*v)
+        if (!body_frame_far(f, other, f->position[*v], f->room)) add(out, *v, f->position[*v]);
+    return out->n > 0;
+}
+
+/* A part gives way to another: every vertex of its skin by the most that anyone asks for. Returns whether the other
+   is near at all. */
+static bool press(BodyFrame *f, int part, const Contact *contact) {
+    double distance[BLOCK], level[BLOCK], scale = figure_scale(f->body->height);
+    Vec3 away[BLOCK], normal[BLOCK];
+    bool any = false;
+    Block all, near;
+    for (int v = f->body->part[part].first_vertex; gather(f, part, contact->other, &v, &all);) {
+        body_frame_unpressed_many(f, contact->other, all.skin, all.n, f->room, distance, away);
+        near.n = 0;
+        for (int i = 0; i < all.n; i++) {
+            if (distance[i] >= f->room) continue;
+            distance[near.n] = distance[i];
+            away[near.n] = away[i];
+            add(&near, all.vertex[i], all.skin[i]);
+        }
+        if (near.n == 0) continue;
+        any = true;
+        body_frame_unpressed_many(f, part, near.skin, near.n, INFINITY, level, normal);
+        for (int i = 0; i < near.n; i++) {
+            Give *give = &f->give[near.vertex[i]];
+            give->level = level[i];
+            give->by = fmax(give->by, yield_by(contact, scale, near.skin[i], level[i], distance[i], away[i], &normal[i]));
+        }
+    }
+    return any;
+}
+
+/* The fold between two bones of a limb. */
+static void find_fold(const BodyFrame *f, int upper, int lower, Contact *of_upper, Contact *of_lower) {
+    const BodyPart *part = &f->body->part[lower];
+    Vec3 joint = rigid_apply(f->pose.bone[part->role], part->frame.t);
+    Vec3 up = vec_scale(mat_column(f->to_world[upper], 1), -1), down = mat_column(f->to_world[lower], 1);
+    Section s = body_section_at(part, 0, NULL);
+    yield_fold(joint, up, down, fmax(s.front, s.back), of_upper, of_lower);
+}
+
+static bool boxes_near(Box a, Box b, double room) {
+    Vec3 grown = vec(room, room, room);
+    return box_touches((Box){vec_sub(a.low, grown), vec_add(a.high, grown)}, b);
+}
+
+static void meet(BodyFrame *f, int a, int b) {
+    Role of_a = f->body->part[a].role, of_b = f->body->part[b].role;
+    Contacts *ca = &f->contacts[a], *cb = &f->contacts[b];
+    if (!yield_concerns(of_a, of_b) || ca->n == CONTACTS_MAX || cb->n == CONTACTS_MAX ||
+        !boxes_near(f->box[a], f->box[b], f->room))
+        return;
+    Contact *to_b = &ca->contact[ca->n], *to_a = &cb->contact[cb->n];
+    yield_contact(of_a, of_b, figure_scale(f->body->height), to_b, to_a);
+    if (yield_hinges(of_a, of_b)) find_fold(f, a, b, to_b, to_a);
+    to_b->other = b;
+    to_a->other = a;
+    bool b_is_near = press(f, a, to_b), a_is_near = press(f, b, to_a);
+    ca->n += a_is_near || b_is_near;
+    cb->n += a_is_near || b_is_near;
+}
+
+/* The most that a part may give way at p: 0 where none of those that press on it can be near. */
+static double most_at(const BodyFrame *f, int part, Vec3 p) {
+    const Contacts *contacts = &f->contacts[part];
+    double most = 0;
+    for (int k = 0; k < contacts->n; k++)
+        if (!body_frame_far(f, contacts->contact[k].other, p, f->room))
+            most = fmax(most, contacts->contact[k].most);
+    return most;
+}
+
+/* How far a point of a part's skin, `level` away from it, goes inwards along its normal until what the part gives
+   way there is made up for, `left` at the skin itself: the first such place. *n becomes the normal there.
+   Distances change no faster than the point moves, so a step as long as what is left to make up for does not pass
+   it; where that shrinks more slowly, steps are longer. Where that is slight and grows, inside a joint, there is
+   nothing to be gained. What has been passed is found by chords, a point that stays their end twice counting half
+   (Illinois). */
+static double way_in(const BodyFrame *f, int p, Vec3 skin, double level, double left, double most, Vec3 *n) {
+    enum { STEPS = 16 };
+    static const double CLOSE = 1e-6, SLIGHT = 1e-3, LONGEST = 2; /* metres; metres; times what is left */
+    Vec3 inwards = vec_scale(*n, -1);
+    double out = 0, in = INFINITY, over = 0, way = fmin(left, most);
+    for (int k = 0, side = 0; k < STEPS && left > 0; k++) {
+        double gap = body_frame_distance(f, p, vec_mad(skin, inwards, way), INFINITY, n) - level;
+        if (fabs(gap) <= CLOSE || (gap > 0 && way >= most)) break;
+        if (left < SLIGHT && gap > left && in == INFINITY) return out;
+        double shrinks = (left - gap) / (way - out);
+        if (gap > 0) {
+            over *= side > 0 ? 0.5 : 1;
+            out = way;
+            left = gap;
+        } else {
+            left *= side < 0 ? 0.5 : 1;
+            in = way;
+            over = -gap;
+        }
+        side = gap > 0 ? 1 : -1;
+        if (in < INFINITY) way = out + (in - out) * left / (left + over);
+        else way = fmin(most, out + gap * (LONGEST * shrinks > 1 ? fmax(1, 1 / shrinks) : LONGEST));
+    }
+    return way;
+}
+
+/* Moves the skin of a part to where it has given way; never farther than the most that it gives. */
+static void give_way(BodyFrame *f, int p) {
+    const BodyPart *part = &f->body->part[p];
+    for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++) {
+        const Give *give = &f->give[v];
+        if (give->by <= 0) continue;
+        Vec3 skin = f->position[v], n = f->normal[v];
+        double way = way_in(f, p, skin, give->level, give->by, most_at(f, p, skin), &n);
+        f->position[v] = vec_mad(skin, f->normal[v], -way);
+        f->normal[v] = n;
+    }
+}
+
+void flesh_press(BodyFrame *f) {
+    int n = f->body->nparts;
+    for (int p = 0; p < n; p++) f->contacts[p].n = 0;
+    for (int v = 0; v < f->body->skin.nvertices; v++) f->give[v].by = 0;
+    for (int a = 0; a < n; a++)
+        for (int b = a + 1; b < n; b++) meet(f, a, b);
+    for (int p = 0; p < n; p++)
+        if (f->contacts[p].n > 0) give_way(f, p);
+}
