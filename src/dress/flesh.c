@@ -1,11 +1,11 @@
-/* Two parts whose boxes are near each other ask for their distances from each other's skin: sixteen vertices at a
+/* Two parts whose boxes are near each other ask for their distances from each other's skin: many vertices at a
    time, and each pair once. Where anything is nearer than the room that cloth needs they are a contact, and the same
    distances say how far the skin has to give way. */
 #include "dress/flesh.h"
 
 #include "geometry/boxtree.h"
 
-enum { BLOCK = 16 };
+enum { BLOCK = 256 };
 
 /* Vertices of a part's skin. */
 typedef struct {

@@ -1,11 +1,11 @@
 /* Distances change no faster than the point moves; they are of first order, so no more than a share of a slack is
    trusted. Vertices that follow each other lie near each other: one box round sixteen of them leaves out most
-   parts at once, and the rest is asked for all of them in one go. */
+   parts at once, and the rest is asked for a lot of them in one go. */
 #include "dress/near.h"
 
 #include "geometry/boxtree.h"
 
-enum { BLOCK = 16 };
+enum { BLOCK = 16, LOT = 16 * BLOCK };
 static const double LIPSCHITZ = 0.8;
 
 /* Parts whose boxes come nearer than `far` to any of n points: bits 1 << part. */
@@ -19,21 +19,27 @@ static unsigned parts_round(const BodyFrame *body, const Vec3 *point, int n, dou
     return parts;
 }
 
-/* Asks one part about those of a block's vertices in `wanted` that are asked about its role. */
-static void ask(Near *near, const BodyFrame *body, int part, const Vec3 *point, const int *wanted, int n, double far) {
-    int vertex[BLOCK], count = 0;
-    Vec3 at[BLOCK];
-    double distance[BLOCK];
-    for (int k = 0; k < n; k++) {
-        int v = wanted[k];
-        if (!(near[v].roles & part_bit(body, part))) continue;
+/* Vertices that are asked about in one go, and the parts that the box round theirs is near to. */
+typedef struct {
+    int n, vertex[LOT];
+    unsigned parts[LOT], any;
+} Lot;
+
+/* Asks one part about those of a lot that are asked about its role. */
+static void ask(Near *near, const BodyFrame *body, int part, const Vec3 *point, const Lot *lot, double far) {
+    int vertex[LOT], n = 0;
+    Vec3 at[LOT];
+    double distance[LOT];
+    for (int k = 0; k < lot->n; k++) {
+        int v = lot->vertex[k];
+        if (!(lot->parts[k] >> part & 1) || !(near[v].roles & part_bit(body, part))) continue;
         if (body_frame_far(body, part, point[v], far)) continue;
-        at[count] = point[v];
-        vertex[count++] = v;
+        at[n] = point[v];
+        vertex[n++] = v;
     }
-    if (count == 0) return;
-    body_frame_unpressed_many(body, part, at, count, far, distance, NULL);
-    for (int k = 0; k < count; k++) {
+    if (n == 0) return;
+    body_frame_unpressed_many(body, part, at, n, far, distance, NULL);
+    for (int k = 0; k < n; k++) {
         Near *of = &near[vertex[k]];
         if (distance[k] >= far) continue;
         of->parts |= 1u << part;
@@ -42,23 +48,37 @@ static void ask(Near *near, const BodyFrame *body, int part, const Vec3 *point, 
     }
 }
 
-void near_find(Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3 *point, double far, bool known) {
+/* Forgets what is known of the vertices first..end-1, but for those that stand where they were seen, and puts them
+   into the lot. */
+static void add_block(Lot *lot, Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3 *point, int first,
+                      int end, double far, bool known) {
     const Lattice *l = sheet->lattice;
-    for (int first = 0; first < sheet->nvertices; first += BLOCK) {
-        int wanted[BLOCK], n = 0;
-        int end = first + BLOCK < sheet->nvertices ? first + BLOCK : sheet->nvertices;
-        for (int v = first; v < end; v++) {
-            if (known && vec_dist(point[v], near[v].seen) == 0) continue;
-            near[v].seen = point[v];
-            near[v].roles = l->collide[sheet->place[v]] | l->outside[sheet->place[v]];
-            near[v].parts = 0;
-            near[v].least = (float)far;
-            wanted[n++] = v;
+    int before = lot->n;
+    for (int v = first; v < end; v++) {
+        if (known && vec_dist(point[v], near[v].seen) == 0) continue;
+        near[v].seen = point[v];
+        near[v].roles = l->collide[sheet->place[v]] | l->outside[sheet->place[v]];
+        near[v].parts = 0;
+        near[v].least = (float)far;
+        lot->vertex[lot->n++] = v;
+    }
+    if (lot->n == before) return;
+    unsigned parts = parts_round(body, point + first, end - first, far);
+    for (int k = before; k < lot->n; k++) lot->parts[k] = parts;
+    lot->any |= parts;
+}
+
+void near_find(Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3 *point, double far, bool known) {
+    for (int first = 0; first < sheet->nvertices;) {
+        Lot lot;
+        lot.n = 0;
+        lot.any = 0;
+        for (; first < sheet->nvertices && lot.n <= LOT - BLOCK; first += BLOCK) {
+            int end = first + BLOCK < sheet->nvertices ? first + BLOCK : sheet->nvertices;
+            add_block(&lot, near, body, sheet, point, first, end, far, known);
         }
-        if (n == 0) continue;
-        unsigned parts = parts_round(body, point + first, end - first, far);
-        for (int part = 0; parts >> part; part++)
-            if (parts >> part & 1) ask(near, body, part, point, wanted, n, far);
+        for (int part = 0; lot.any >> part; part++)
+            if (lot.any >> part & 1) ask(near, body, part, point, &lot, far);
     }
 }
 

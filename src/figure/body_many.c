@@ -1,6 +1,9 @@
 /* body_distance for many points: sixteen stand side by side and every step is a loop over them without a branch,
    so that the compiler makes vectors of it, as wide as the processor has them. Every sum and root is taken in the
-   order of body_distance: which of the two was asked changes no bit. */
+   order of body_distance: which of the two was asked changes no bit.
+
+   Of points that stand near a part many are yet too far away, and few need a second look. What is left after each
+   step queues up until sixteen can take the next one together. */
 #include "figure/body.h"
 
 enum { LANES = 16 };
@@ -9,14 +12,13 @@ typedef struct { double x[LANES], y[LANES], z[LANES]; } Lanes;
 
 #define ALWAYS static inline __attribute__((always_inline))
 
-/* From the world to the part's frame; lanes beyond the n-th repeat the last point. */
-ALWAYS void bring(const Rigid *to_part, const Vec3 *p, int n, Lanes *out) {
+/* From the world to the part's frame. */
+ALWAYS void bring(const Rigid *to_part, const Vec3 *p, Lanes *out) {
     Lanes in;
     for (int i = 0; i < LANES; i++) {
-        Vec3 q = p[i < n ? i : n - 1];
-        in.x[i] = q.x;
-        in.y[i] = q.y;
-        in.z[i] = q.z;
+        in.x[i] = p[i].x;
+        in.y[i] = p[i].y;
+        in.z[i] = p[i].z;
     }
     Mat3 m = to_part->r;
     Vec3 t = to_part->t;
@@ -96,47 +98,125 @@ ALWAYS void before_planes(const BodyPart *part, const Lanes *at, const Lanes *p,
     }
 }
 
-/* Where the surface leans, from the foot of the first distance again. */
-ALWAYS void look_again(const BodyPart *part, const Lanes *p, double far, double distance[LANES], Lanes *n) {
-    Lanes foot, other;
-    double better[LANES];
+/* Points that wait: which they are, in the part's frame, and for a second look what the first has found. Those of
+   the last sixteen that are too many stay. */
+typedef struct {
+    int n, of[2 * LANES];
+    double x[2 * LANES], y[2 * LANES], z[2 * LANES];
+} Queue;
+
+typedef struct {
+    Queue wait;
+    double distance[2 * LANES];
+    Vec3 normal[2 * LANES];
+} Again;
+
+/* What is asked, and where the answers go. */
+typedef struct {
+    const BodyPart *part;
+    double far, *out;
+    Vec3 *normal; /* or NULL */
+} Asked;
+
+ALWAYS void enqueue(Queue *q, int of, const Lanes *p, int lane, int counts) {
+    q->of[q->n] = of;
+    q->x[q->n] = p->x[lane];
+    q->y[q->n] = p->y[lane];
+    q->z[q->n] = p->z[lane];
+    q->n += counts;
+}
+
+/* The first sixteen of a queue; where there are fewer, the last of them again. */
+ALWAYS void take(const Queue *q, Lanes *out) {
     for (int i = 0; i < LANES; i++) {
-        foot.x[i] = p->x[i] + n->x[i] * -distance[i];
-        foot.y[i] = p->y[i] + n->y[i] * -distance[i];
-        foot.z[i] = p->z[i] + n->z[i] * -distance[i];
-    }
-    before_planes(part, &foot, p, better, &other);
-    for (int i = 0; i < LANES; i++) {
-        bool counts = (distance[i] < far) & (fabs(n->y[i]) > BODY_LEANING) & ((better[i] > 0) == (distance[i] > 0));
-        distance[i] = counts ? better[i] : distance[i];
-        n->x[i] = counts ? other.x[i] : n->x[i];
-        n->y[i] = counts ? other.y[i] : n->y[i];
-        n->z[i] = counts ? other.z[i] : n->z[i];
+        int k = i < q->n ? i : q->n - 1;
+        out->x[i] = q->x[k];
+        out->y[i] = q->y[k];
+        out->z[i] = q->z[k];
     }
 }
 
-/* body_distance for the first n lanes. */
-ALWAYS void sixteen(const BodyPart *part, const Rigid *to_part, const Vec3 *points, int n, double far, double *out,
-                    Vec3 *normal) {
-    Lanes p, up;
-    int near[LANES], leans = 0;
-    double distance[LANES];
-    bring(to_part, points, n, &p);
-    if (!find_near(part, &p, far, near)) {
-        for (int i = 0; i < n; i++) out[i] = far;
-        return;
+ALWAYS void advance(Queue *q) {
+    for (int i = LANES; i < q->n; i++) {
+        q->of[i - LANES] = q->of[i];
+        q->x[i - LANES] = q->x[i];
+        q->y[i - LANES] = q->y[i];
+        q->z[i - LANES] = q->z[i];
     }
-    before_planes(part, &p, &p, distance, &up);
-    for (int i = 0; i < LANES; i++) leans |= near[i] & (distance[i] < far) & (fabs(up.y[i]) > BODY_LEANING);
-    if (leans) look_again(part, &p, far, distance, &up);
-    for (int i = 0; i < n; i++) out[i] = (near[i] & (distance[i] < far)) ? distance[i] : far;
-    for (int i = 0; normal && i < n; i++) normal[i] = vec(up.x[i], up.y[i], up.z[i]);
+    q->n = q->n > LANES ? q->n - LANES : 0;
+}
+
+ALWAYS void answer(const Asked *asked, int of, double distance, Vec3 normal) {
+    if (distance >= asked->far) return;
+    asked->out[of] = distance;
+    if (asked->normal) asked->normal[of] = normal;
+}
+
+/* Where the surface leans: from the foot of the first distance again. */
+ALWAYS void look_again(const Asked *asked, Again *again) {
+    Queue *q = &again->wait;
+    Lanes p, foot, n;
+    double better[LANES];
+    int count = q->n < LANES ? q->n : LANES;
+    take(q, &p);
+    for (int i = 0; i < LANES; i++) {
+        int k = i < count ? i : count - 1;
+        foot.x[i] = p.x[i] + again->normal[k].x * -again->distance[k];
+        foot.y[i] = p.y[i] + again->normal[k].y * -again->distance[k];
+        foot.z[i] = p.z[i] + again->normal[k].z * -again->distance[k];
+    }
+    before_planes(asked->part, &foot, &p, better, &n);
+    for (int i = 0; i < count; i++) {
+        bool counts = (better[i] > 0) == (again->distance[i] > 0);
+        answer(asked, q->of[i], counts ? better[i] : again->distance[i],
+               counts ? vec(n.x[i], n.y[i], n.z[i]) : again->normal[i]);
+    }
+    for (int i = LANES; i < q->n; i++) {
+        again->distance[i - LANES] = again->distance[i];
+        again->normal[i - LANES] = again->normal[i];
+    }
+    advance(q);
+}
+
+ALWAYS void look(const Asked *asked, Queue *q, Again *again) {
+    Lanes p, n;
+    double distance[LANES];
+    int count = q->n < LANES ? q->n : LANES;
+    take(q, &p);
+    before_planes(asked->part, &p, &p, distance, &n);
+    for (int i = 0; i < count; i++) {
+        Vec3 normal = vec(n.x[i], n.y[i], n.z[i]);
+        if (distance[i] < asked->far && fabs(normal.y) > BODY_LEANING) {
+            again->distance[again->wait.n] = distance[i];
+            again->normal[again->wait.n] = normal;
+            enqueue(&again->wait, q->of[i], &p, i, 1);
+        } else {
+            answer(asked, q->of[i], distance[i], normal);
+        }
+    }
+    advance(q);
+    if (again->wait.n >= LANES) look_again(asked, again);
 }
 
 ALWAYS void all(const BodyPart *part, const Rigid *to_part, const Vec3 *p, int n, double far, double *out,
                 Vec3 *normal) {
-    for (int i = 0; i < n; i += LANES)
-        sixteen(part, to_part, p + i, n - i < LANES ? n - i : LANES, far, out + i, normal ? normal + i : NULL);
+    Asked asked = {part, far, out, normal};
+    Queue queue;
+    Again again;
+    queue.n = again.wait.n = 0;
+    for (int i = 0; i < n; i++) out[i] = far;
+    for (int first = 0; first < n; first += LANES) {
+        int near[LANES], count = n - first < LANES ? n - first : LANES;
+        Vec3 last[LANES];
+        Lanes at;
+        for (int i = 0; count < LANES && i < LANES; i++) last[i] = p[first + (i < count ? i : count - 1)];
+        bring(to_part, count < LANES ? last : p + first, &at);
+        if (!find_near(part, &at, far, near)) continue;
+        for (int i = 0; i < count; i++) enqueue(&queue, first + i, &at, i, near[i]);
+        if (queue.n >= LANES) look(&asked, &queue, &again);
+    }
+    if (queue.n > 0) look(&asked, &queue, &again);
+    if (again.wait.n > 0) look_again(&asked, &again);
 }
 
 #ifdef VECTORS_ARE_X86
