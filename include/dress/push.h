@@ -7,11 +7,17 @@
 #include "dress/near.h"
 #include "dress/surface.h"
 
-/* A mesh vertex near the body, with the level vertices that move it. Private. */
+/* The unknowns that move the places of a cell of the deepest level: four level vertices of each level, by their
+   numbers in Field.displacement; and for one coordinate of a place how those at its two ends weigh. The weight of
+   vertex 2 x + y is that of x along u times that of y along w. Private, as are samples. */
+typedef struct { int unknown[LATTICE_LEVELS][4]; } PushCell;
+typedef struct { double weight[LATTICE_LEVELS][2]; } PushAlong;
+
+/* A mesh vertex near the body. */
 typedef struct {
-    int vertex, n;                    /* n: level vertices; -1 until somebody asks */
-    int id[4 * LATTICE_LEVELS];       /* into Field.displacement */
-    double weight[4 * LATTICE_LEVELS], norm2;
+    int vertex;
+    const PushCell *cell;             /* what moves it, */
+    const PushAlong *u, *w;           /* and by how much */
     double spent, budget;             /* push issued in this frame, and its limit; metres */
     Vec3 net;                         /* their sum */
     Near near;                        /* parts worth asking, and where it was when they were last asked, */
@@ -28,8 +34,11 @@ typedef struct {
     Field kept;                       /* of another attempt, */
     Vec3 *kept_point;                 /* and where it left the vertices */
     int nkept;
-    bool *active;                     /* per level vertex: all cells round it are split to its level */
-    double *mobility;                 /* per level vertex: how willingly it moves */
+    PushCell *cell;                   /* [patch][a][b] of the deepest level */
+    PushAlong *along;                 /* per lattice coordinate, 0..side */
+    double coarser;                   /* how far a level is moved against the next finer one, which moves less
+                                         cloth: in (0, 1]. Set it before push_start */
+    double *mobility;                 /* per level vertex: how willingly it moves in this frame */
     double *travel;                   /* per level vertex: metres moved since the samples were found, */
     bool any_travel;                  /* if anything was */
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
@@ -48,9 +57,6 @@ typedef struct {
 } PushResult;
 
 MUST_CHECK bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e);
-
-/* Sets how far a level is moved against the next finer one, which moves less cloth: in (0, 1]. */
-void push_weigh(Push *p, double coarser);
 
 /* Evaluates the global shape from the root patches at the vertices of the sheet. */
 void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *sheet);

@@ -20,13 +20,32 @@ static const double NORM_MIN = 0.1;  /* a sample that level vertices hardly move
 static const double BUDGET = 0.02;   /* a sample may issue twice its first violation and this */
 static const double HEADWAY = 0.6;   /* pushes that get this share of their length nowhere are a pinch */
 
+/* Which unknowns move a place follows from its cell, and their weights from its two coordinates. */
+static void list_unknowns(Push *p) {
+    const Lattice *l = p->lattice;
+    int cells = 1 << l->depth, ncells = l->fit->npatches * cells * cells;
+    double weight[4];
+    for (int c = 0; c < ncells; c++)
+        for (int level = 0; level <= l->depth; level++) {
+            int *unknown = p->cell[c].unknown[level], a = c / cells % cells, b = c % cells;
+            lattice_weights(l, level, c / (cells * cells), a * l->detail, b * l->detail, unknown, weight, NULL, NULL);
+            for (int k = 0; k < 4; k++) unknown[k] += p->field.start[level];
+        }
+    for (int i = 0; i <= l->side; i++)
+        for (int level = 0; level <= l->depth; level++)
+            memcpy(p->along[i].weight[level], l->level[level].step[i].weight, sizeof p->along[i].weight[level]);
+}
+
 bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     *p = (Push){.lattice = lattice};
     if (!escape_reserve(&p->escape, lattice, arena, e) || !field_reserve(&p->field, lattice, arena, e) ||
         !field_reserve(&p->kept, lattice, arena, e) || !surface_reserve(&p->surface, lattice, arena, e))
         return false;
     int places = lattice->nplaces;
-    p->active = ARENA_NEW(arena, bool, p->field.start[LATTICE_LEVELS], e);
+    p->cell = ARENA_NEW(arena, PushCell, lattice->fit->npatches << (2 * lattice->depth), e);
+    p->along = ARENA_NEW(arena, PushAlong, lattice->side + 1, e);
+    if (!p->cell || !p->along) return false;
+    list_unknowns(p);
     p->mobility = ARENA_NEW(arena, double, p->field.start[LATTICE_LEVELS], e);
     p->travel = ARENA_NEW(arena, double, p->field.start[LATTICE_LEVELS], e);
     p->global = ARENA_NEW(arena, Vec3, places, e);
@@ -35,33 +54,24 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     p->clearance = ARENA_NEW(arena, double, places, e);
     p->near = ARENA_NEW(arena, Near, places, e);
     p->sample = ARENA_NEW(arena, PushSample, places, e);
-    return p->active && p->mobility && p->travel && p->global && p->point && p->kept_point && p->clearance && p->near &&
-           p->sample;
+    return p->mobility && p->travel && p->global && p->point && p->kept_point && p->clearance && p->near && p->sample;
 }
 
-void push_weigh(Push *p, double coarser) {
-    const Lattice *l = p->lattice;
-    for (int level = 0; level <= l->depth; level++) {
-        double of_level = pow(coarser, l->depth - level);
-        for (int v = 0; v < l->level[level].count; v++)
-            p->mobility[p->field.start[level] + v] = (l->level[level].pinned[v] ? PIN_GIVES : 1) * of_level;
-    }
-}
-
-/* A level vertex may move where all cells round it are split to its level. */
-static void find_active(Push *p, const Leaves *leaves) {
+/* A level vertex may move where all cells round it are split to its level; where they are not, it is at rest. */
+static void find_mobility(Push *p, const Leaves *leaves) {
     const Lattice *l = p->lattice;
     int cells = 1 << l->depth;
     for (int level = 0; level <= l->depth; level++) {
         const LatticeLevel *at = &l->level[level];
         int size = 1 << (l->depth - level);
+        double of_level = pow(p->coarser, l->depth - level);
         for (int v = 0; v < at->count; v++) {
             bool all = true;
             for (int k = at->first_cell[v]; all && k < at->first_cell[v + 1]; k++) {
                 LatticeCell c = at->cell[k];
                 all = leaves->level[(c.patch * cells + c.a * size) * cells + c.b * size] >= level;
             }
-            p->active[p->field.start[level] + v] = all;
+            p->mobility[p->field.start[level] + v] = all ? (at->pinned[v] ? PIN_GIVES : 1) * of_level : 0;
         }
     }
 }
@@ -78,9 +88,15 @@ static void find_points(Push *p, const Sheet *sheet) {
     for (int v = 0; v < sheet->nvertices; v++) p->point[v] = displaced(p, sheet, v, p->point[v]);
 }
 
-static Vec3 sample_point(const Push *p, const Sheet *sheet, const PushSample *s) {
+static void weigh(const Push *p, const PushSample *s, double weight[][4]) {
+    for (int level = 0; level <= p->lattice->depth; level++)
+        for (int k = 0; k < 4; k++) weight[level][k] = s->u->weight[level][k / 2] * s->w->weight[level][k % 2];
+}
+
+static Vec3 sample_point(const Push *p, const Sheet *sheet, const PushSample *s, double weight[][4]) {
     Vec3 d = {0, 0, 0};
-    for (int k = 0; k < s->n; k++) d = vec_mad(d, p->field.displacement[s->id[k]], s->weight[k]);
+    for (int level = 0; level <= p->lattice->depth; level++)
+        for (int k = 0; k < 4; k++) d = vec_mad(d, p->field.displacement[s->cell->unknown[level][k]], weight[level][k]);
     return displaced(p, sheet, s->vertex, d);
 }
 
@@ -91,31 +107,16 @@ static unsigned movers(const Push *p, int place) {
     return l->collide[place] | (l->outside[place] & l->fit->collide);
 }
 
-/* Many samples are never moved nor asked again: what moves them is found when it is first needed. */
-static void weigh(const Push *p, const Sheet *sheet, PushSample *s) {
+static void add_sample(Push *p, int vertex, int place, unsigned parts, double far) {
     const Lattice *l = p->lattice;
-    int patch, i, j, id[4];
-    double weight[4];
-    lattice_owner(l, sheet->place[s->vertex], &patch, &i, &j);
-    s->n = 0;
-    s->norm2 = 0;
-    for (int level = 0; level <= l->depth; level++) {
-        lattice_weights(l, level, patch, i, j, id, weight, NULL, NULL);
-        for (int k = 0; k < 4; k++) {
-            int unknown = p->field.start[level] + id[k];
-            if (weight[k] <= 0 || !p->active[unknown]) continue;
-            s->id[s->n] = unknown;
-            s->weight[s->n++] = weight[k];
-            s->norm2 += p->mobility[unknown] * weight[k] * weight[k];
-        }
-    }
-}
-
-/* Field by field: what moves it is filled in by weigh(), if ever. */
-static void add_sample(Push *p, int vertex, unsigned parts, double far) {
+    const LatticeStep *deepest = l->level[l->depth].step;
     PushSample *s = &p->sample[p->nsamples++];
+    int patch, i, j, cells = 1 << l->depth;
+    lattice_owner(l, place, &patch, &i, &j);
     s->vertex = vertex;
-    s->n = -1;
+    s->cell = &p->cell[(patch * cells + deepest[i].cell) * cells + deepest[j].cell];
+    s->u = &p->along[i];
+    s->w = &p->along[j];
     s->near = p->near[vertex];
     s->near.parts = parts;
     near_sum(&s->near, far);
@@ -135,26 +136,40 @@ static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
     p->near_known = true;
     for (int v = 0; v < sheet->nvertices; v++) {
         unsigned parts = near_parts(&p->near[v], body, movers(p, sheet->place[v]));
-        if (parts) add_sample(p, v, parts, far);
+        if (parts) add_sample(p, v, sheet->place[v], parts, far);
     }
 }
 
 /* Moves a sample by `depth` along n with the least change of the unknowns. */
-static void project(Push *p, const PushSample *s, Vec3 n, double depth, PushResult *result) {
-    double step = depth / fmax(s->norm2, NORM_MIN);
-    for (int k = 0; k < s->n; k++) {
-        Vec3 *d = &p->field.displacement[s->id[k]];
-        double by = step * (p->mobility[s->id[k]] * s->weight[k]);
-        *d = field_limit(vec_mad(*d, n, by), p->field.cap, &result->capped);
-        p->travel[s->id[k]] += fabs(by);
-    }
+static void project(Push *p, const PushSample *s, double weight[][4], Vec3 n, double depth, PushResult *result) {
+    double norm2 = 0, mobile[LATTICE_LEVELS][4];
+    for (int level = 0; level <= p->lattice->depth; level++)
+        for (int k = 0; k < 4; k++) {
+            mobile[level][k] = p->mobility[s->cell->unknown[level][k]] * weight[level][k];
+            norm2 += mobile[level][k] * weight[level][k];
+        }
+    double step = depth / fmax(norm2, NORM_MIN);
+    for (int level = 0; level <= p->lattice->depth; level++)
+        for (int k = 0; k < 4; k++) {
+            int unknown = s->cell->unknown[level][k];
+            double by = step * mobile[level][k];
+            if (by <= 0) continue;
+            Vec3 *d = &p->field.displacement[unknown];
+            *d = field_limit(vec_mad(*d, n, by), p->field.cap, &result->capped);
+            p->travel[unknown] += by;
+        }
     p->any_travel = true;
 }
 
 /* The most that a sample can have been moved since it was found. */
 static double travelled(const Push *p, const PushSample *s) {
+    const double *t = p->travel;
     double sum = 0;
-    for (int k = 0; k < s->n; k++) sum += p->travel[s->id[k]] * s->weight[k];
+    for (int level = 0; level <= p->lattice->depth; level++) {
+        const int *k = s->cell->unknown[level];
+        const double *u = s->u->weight[level], *w = s->w->weight[level];
+        sum += u[0] * (w[0] * t[k[0]] + w[1] * t[k[1]]) + u[1] * (w[0] * t[k[2]] + w[1] * t[k[3]]);
+    }
     return sum;
 }
 
@@ -166,13 +181,13 @@ static bool is_pinched(const Push *p, const PushSample *s) {
 
 /* May a sample have come too near to any part since they were last asked? First the way that what moves it
    has gone is held against its slack, then its own. If so it is placed. */
-static bool needs_asking(Push *p, const Sheet *sheet, PushSample *s, double enough) {
+static bool needs_asking(Push *p, const Sheet *sheet, PushSample *s, double enough, double weight[][4]) {
     double slack = near_slack(s->near.least, enough);
     if (slack > 0 && !p->any_travel) return false;
-    if (s->n < 0) weigh(p, sheet, s);
     double way = travelled(p, s);
     if (slack > way - s->travelled) return false;
-    Vec3 x = sample_point(p, sheet, s);
+    weigh(p, s, weight);
+    Vec3 x = sample_point(p, sheet, s, weight);
     double gone = vec_dist(x, s->near.seen);
     s->travelled = way;
     if (slack > gone) s->travelled -= gone;
@@ -190,7 +205,8 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
                       .clearance = p->clearance[s->vertex],
                       .slack = p->slack};
     double enough = (1 - p->slack) * at.clearance, far = at.clearance + REACH * p->field.scale, most = 0;
-    if (!needs_asking(p, sheet, s, enough)) return 0;
+    double weight[LATTICE_LEVELS][4];
+    if (!needs_asking(p, sheet, s, enough, weight)) return 0;
     for (int part = 0; s->near.parts >> part; part++) {
         if (!(s->near.parts >> part & 1)) continue;
         if (near_slack(s->near.distance[part], enough) > 0 && !(s->asked >> part & 1)) continue;
@@ -204,8 +220,8 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
         if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->field.scale;
         s->spent += depth;
         s->net = vec_mad(s->net, n, depth);
-        project(p, s, n, depth, result);
-        near_move(&s->near, sample_point(p, sheet, s));
+        project(p, s, weight, n, depth, result);
+        near_move(&s->near, sample_point(p, sheet, s, weight));
         most = fmax(most, depth);
     }
     near_sum(&s->near, far);
@@ -242,7 +258,7 @@ static double sweep_all(Push *p, const BodyFrame *body, const Sheet *sheet, Push
 void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *sheet) {
     p->near_known = false;
     p->escape.root = root;
-    find_active(p, leaves);
+    find_mobility(p, leaves);
     surface_points(&p->surface, sheet, root, p->global);
     for (int v = 0; v < sheet->nvertices; v++) p->clearance[v] = PUSH_MARGIN * p->field.scale;
 }

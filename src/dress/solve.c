@@ -188,7 +188,7 @@ static void prepare(Solver *s, int attempt, double cap) {
         split_where_bad(s);
     }
     if (attempt > CARRIED) field_forget(&s->push.field);
-    push_weigh(&s->push, coarser_of(s, attempt == WEIGHED));
+    s->push.coarser = coarser_of(s, attempt == WEIGHED);
     s->push.field.cap = attempt == CLOSE_BY ? NEAR * cap : cap;
 }
 
