@@ -54,6 +54,28 @@ static void test_snap(void) {
     OK(!signbit(mesh_snap(-0.0000001)) && !signbit(mesh_snap(-0.0)), "never -0");
 }
 
+/* Many at a time, in place, with any vectors: each as alone. Every block of some has one that lands on a half. */
+static void test_snap_many(void) {
+    enum { N = 100 };
+    Vec3 from[N], to[N];
+    for (Vectors v = VECTORS_BEST; v < VECTORS_COUNT; v++) {
+        int wrong = 0;
+        for (int round = 0; vectors_usable(v) && round < 100; round++) {
+            double scale = round % 4 == 0 ? 1 : 39.37, large = round % 4 == 2 ? 1e9 : 1;
+            for (int k = 0; k < N; k++) {
+                from[k] = vec(metres(k) - 2, any_size(k), k < round ? metres(k) : tie(k) * large);
+                to[k] = from[k];
+            }
+            mesh_snap_points(v, to, scale, N - round % 17, to);
+            for (int k = 0; k < N - round % 17; k++) {
+                Vec3 alone = mesh_snap_point(vec_scale(from[k], scale));
+                wrong += memcmp(&to[k], &alone, sizeof alone) != 0;
+            }
+        }
+        OK(wrong == 0, "many points are snapped as each alone, vectors %d (%d differ)", v, wrong);
+    }
+}
+
 static bool same_edges(const Mesh *m, const Edge *wanted, int n) {
     return m->nedges == n && memcmp(m->edge, wanted, (size_t)n * sizeof *wanted) == 0;
 }
@@ -91,6 +113,7 @@ static void test_edges(void) {
 
 int main(void) {
     test_snap();
+    test_snap_many();
     test_edges();
     return tap_done();
 }

@@ -6,6 +6,7 @@
 
 #include "base/arena.h"
 #include "geometry/vec.h"
+#include "geometry/vectors.h"
 
 typedef struct { int v[3]; } Triangle;
 typedef struct { int v[2]; } Edge; /* v[0] < v[1] */
@@ -34,6 +35,9 @@ typedef struct {
    (for |x| < 1e9; never -0). */
 double mesh_snap(double x);
 Vec3 mesh_snap_point(Vec3 p);
+
+/* The same for n points times `unit`, which may stay where they are, with any vectors. */
+void mesh_snap_points(Vectors vectors, const Vec3 *from, double unit, int n, Vec3 *to);
 
 /* Fills mesh->edge and nedges from the triangles, each undirected edge once, in order of
    first appearance. */

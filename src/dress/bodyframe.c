@@ -132,10 +132,7 @@ void body_frame_pose(BodyFrame *f, const Pose *pose) {
         find_box(f, p);
     }
     flesh_press(f);
-    for (int v = 0; v < b->skin.nvertices; v++) {
-        Vec3 p = vec_scale(f->position[v], f->unit);
-        f->position[v] = mesh_snap_point(p);
-    }
+    mesh_snap_points(f->vectors, f->position, f->unit, b->skin.nvertices, f->position);
     for (int p = 0; p < b->nparts; p++) {
         const BodyPart *part = &b->part[p];
         crossing_build_edges(&f->edges[p], f->position, b->skin.edge + part->first_edge, part->nedges);

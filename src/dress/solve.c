@@ -45,11 +45,8 @@ bool solver_reserve(Solver *s, const Fit *fit, const Lattice *lattice, const Dre
 }
 
 /* The points that a reader of the file gets. */
-static void snap_points(Solver *s, double unit) {
-    for (int v = 0; v < s->sheet.nvertices; v++) {
-        Vec3 p = vec_scale(s->push.point[v], unit);
-        s->position[v] = mesh_snap_point(p);
-    }
+static void snap_points(Solver *s, const BodyFrame *body) {
+    mesh_snap_points(body->vectors, s->push.point, body->unit, s->sheet.nvertices, s->position);
     tester_build(&s->tester, s->position, s->sheet.edge, s->sheet.nedges, s->sheet.triangle, s->sheet.ntriangles,
                  s->fit->collide);
 }
@@ -71,7 +68,7 @@ static Wrong test_built(Solver *s, const BodyFrame *body, const Vec3 *position, 
 }
 
 static Wrong test_mesh(Solver *s, const BodyFrame *body, CrossingCount *count) {
-    snap_points(s, body->unit);
+    snap_points(s, body);
     push_clear(&s->push, &s->sheet, s->clear);
     return test_built(s, body, s->position, s->sheet.nvertices, s->clear, count);
 }

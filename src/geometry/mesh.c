@@ -2,14 +2,17 @@
    the list of its edges. */
 #include "geometry/mesh.h"
 
+enum { BLOCK = 48 };                            /* numbers of sixteen points */
+static const double LARGE = 1e9;
+static const double WHOLE = 6755399441055744.0; /* 1.5 x 2^52: a sum with it has no fraction bits, nor is it ever -0 */
+
 /* Round x to a whole number of millionths, then divide: both operands are whole numbers below
    2^53, so the quotient is the double nearest to the decimal, which is what strtod returns.
    printf rounds the exact value of x and ties to even. The product p is rounded itself, which
    matters only where it lands on a half: then what the product lost decides. */
 double mesh_snap(double x) {
-    if (!(fabs(x) < 1e9)) return x;
-    const double whole = 6755399441055744.0; /* 1.5 x 2^52: a sum with it has no fraction bits, nor is it ever -0 */
-    double p = x * 1e6, n = (p + whole) - whole, rest = p - n;
+    if (!(fabs(x) < LARGE)) return x;
+    double p = x * 1e6, n = (p + WHOLE) - WHOLE, rest = p - n;
     if (rest == 0.5 || rest == -0.5) {
         double high = (double)(float)x, low = x - high; /* 24 and 29 bits: times 1e6 (14 bits) both are exact */
         double lost = (high * 1e6 - p) + low * 1e6;
@@ -20,6 +23,46 @@ double mesh_snap(double x) {
 
 Vec3 mesh_snap_point(Vec3 p) {
     return vec(mesh_snap(p.x), mesh_snap(p.y), mesh_snap(p.z));
+}
+
+#define ALWAYS static inline __attribute__((always_inline))
+
+/* mesh_snap without a branch, for a block of numbers times `unit`. False if any of them lands on a half or is too
+   large, and so is not what it should be. */
+ALWAYS bool snap_block(const double *from, double unit, double *to) {
+    int special = 0;
+    for (int k = 0; k < BLOCK; k++) {
+        double x = from[k] * unit, p = x * 1e6, n = (p + WHOLE) - WHOLE;
+        special |= (fabs(p - n) == 0.5) | !(fabs(x) < LARGE);
+        to[k] = n / 1e6;
+    }
+    return !special;
+}
+
+ALWAYS void snap_all(const double *from, double unit, int n, double *to) {
+    for (int first = 0; first < n; first += BLOCK) {
+        double block[BLOCK];
+        int count = n - first < BLOCK ? n - first : BLOCK;
+        bool whole = count == BLOCK && snap_block(from + first, unit, block);
+        for (int k = 0; k < count; k++) to[first + k] = whole ? block[k] : mesh_snap(from[first + k] * unit);
+    }
+}
+
+#ifdef VECTORS_ARE_X86
+FOR_AVX2 static void snap_avx2(const double *from, double unit, int n, double *to) { snap_all(from, unit, n, to); }
+FOR_AVX512 static void snap_avx512(const double *from, double unit, int n, double *to) { snap_all(from, unit, n, to); }
+#endif
+
+void mesh_snap_points(Vectors vectors, const Vec3 *from, double unit, int n, Vec3 *to) {
+    const double *in = &from->x;
+    double *out = &to->x;
+#ifdef VECTORS_ARE_X86
+    vectors = vectors_pick(vectors);
+    if (vectors == VECTORS_AVX512) snap_avx512(in, unit, 3 * n, out);
+    else if (vectors == VECTORS_AVX2) snap_avx2(in, unit, 3 * n, out);
+    else
+#endif
+        snap_all(in, unit, 3 * n, out);
 }
 
 /* The edges at a vertex that have it as their lower end form a list; few enough to search. */
