@@ -12,16 +12,26 @@ typedef struct { double x[LANES], y[LANES], z[LANES]; } Lanes;
 
 #define ALWAYS static inline __attribute__((always_inline))
 
-/* From the world to the part's frame. */
-ALWAYS void bring(const Rigid *to_part, const Vec3 *p, Lanes *out) {
+/* What is asked, and where the answers go. */
+typedef struct {
+    const BodyPart *part;
+    const Rigid *to_part;
+    const Vec3 *p;
+    double far, *out;
+    Vec3 *normal; /* or NULL */
+} Asked;
+
+/* The points of[0..n-1] in the part's frame; lanes beyond the n-th repeat the last. */
+ALWAYS void bring(const Asked *asked, const int *of, int n, Lanes *out) {
+    Mat3 m = asked->to_part->r;
+    Vec3 t = asked->to_part->t;
     Lanes in;
     for (int i = 0; i < LANES; i++) {
-        in.x[i] = p[i].x;
-        in.y[i] = p[i].y;
-        in.z[i] = p[i].z;
+        Vec3 q = asked->p[of[i < n ? i : n - 1]];
+        in.x[i] = q.x;
+        in.y[i] = q.y;
+        in.z[i] = q.z;
     }
-    Mat3 m = to_part->r;
-    Vec3 t = to_part->t;
     for (int i = 0; i < LANES; i++) {
         out->x[i] = m.r[0].x * in.x[i] + m.r[0].y * in.y[i] + m.r[0].z * in.z[i] + t.x;
         out->y[i] = m.r[1].x * in.x[i] + m.r[1].y * in.y[i] + m.r[1].z * in.z[i] + t.y;
@@ -42,8 +52,24 @@ ALWAYS int find_near(const BodyPart *part, const Lanes *p, double far, int near[
     return any;
 }
 
-/* The five values at heights y, and their slopes. Points that stand together lie in few intervals between sections:
-   each of these is evaluated for all, and kept by those that reach it. */
+/* The five values and their slopes at heights y that are not below `from`, in interval s between sections. */
+ALWAYS void shapes_in(const BodyPart *part, int s, double from, const double y[LANES], double v[SHAPE_VALUES][LANES],
+                      double d[SHAPE_VALUES][LANES]) {
+    double at = part->section[s].at;
+    for (int k = 0; k < SHAPE_VALUES; k++) {
+        double c0 = part->cubic[s][0][k], c1 = part->cubic[s][1][k], c2 = part->cubic[s][2][k];
+        double c3 = part->cubic[s][3][k];
+        for (int i = 0; i < LANES; i++) {
+            double t = y[i] - at, value = c0 + t * (c1 + t * (c2 + t * c3));
+            double slope = c1 + t * (2 * c2 + t * 3 * c3), old = v[k][i], old_slope = d[k][i];
+            v[k][i] = y[i] >= from ? value : old;
+            d[k][i] = y[i] >= from ? slope : old_slope;
+        }
+    }
+}
+
+/* Points that stand together lie in few intervals: each of these is evaluated for all, and kept by those that reach
+   it. */
 ALWAYS void shapes_at(const BodyPart *part, const double y[LANES], double v[SHAPE_VALUES][LANES],
                       double d[SHAPE_VALUES][LANES]) {
     double least = y[0], most = y[0];
@@ -52,19 +78,7 @@ ALWAYS void shapes_at(const BodyPart *part, const double y[LANES], double v[SHAP
         most = y[i] > most ? y[i] : most;
     }
     int first = body_interval(part, least), last = body_interval(part, most);
-    for (int s = first; s <= last; s++) {
-        double at = part->section[s].at, from = s == first ? -INFINITY : at;
-        for (int k = 0; k < SHAPE_VALUES; k++) {
-            double c0 = part->cubic[s][0][k], c1 = part->cubic[s][1][k], c2 = part->cubic[s][2][k];
-            double c3 = part->cubic[s][3][k];
-            for (int i = 0; i < LANES; i++) {
-                double t = y[i] - at, value = c0 + t * (c1 + t * (c2 + t * c3));
-                double slope = c1 + t * (2 * c2 + t * 3 * c3), old = v[k][i], old_slope = d[k][i];
-                v[k][i] = y[i] >= from ? value : old;
-                d[k][i] = y[i] >= from ? slope : old_slope;
-            }
-        }
-    }
+    for (int s = first; s <= last; s++) shapes_in(part, s, s == first ? -INFINITY : part->section[s].at, y, v, d);
 }
 
 /* before_plane of body.c for every lane. */
@@ -98,53 +112,33 @@ ALWAYS void before_planes(const BodyPart *part, const Lanes *at, const Lanes *p,
     }
 }
 
-/* Points that wait: which they are, in the part's frame, and for a second look what the first has found. Those of
-   the last sixteen that are too many stay. */
-typedef struct {
-    int n, of[2 * LANES];
-    double x[2 * LANES], y[2 * LANES], z[2 * LANES];
-} Queue;
+/* Points that wait for a step: never more than fifteen are left when the next sixteen come. */
+typedef struct { int n, of[2 * LANES]; } Queue;
 
-typedef struct {
-    Queue wait;
-    double distance[2 * LANES];
-    Vec3 normal[2 * LANES];
-} Again;
-
-/* What is asked, and where the answers go. */
-typedef struct {
-    const BodyPart *part;
-    double far, *out;
-    Vec3 *normal; /* or NULL */
-} Asked;
-
-ALWAYS void enqueue(Queue *q, int of, const Lanes *p, int lane, int counts) {
-    q->of[q->n] = of;
-    q->x[q->n] = p->x[lane];
-    q->y[q->n] = p->y[lane];
-    q->z[q->n] = p->z[lane];
-    q->n += counts;
-}
-
-/* The first sixteen of a queue; where there are fewer, the last of them again. */
-ALWAYS void take(const Queue *q, Lanes *out) {
-    for (int i = 0; i < LANES; i++) {
-        int k = i < q->n ? i : q->n - 1;
-        out->x[i] = q->x[k];
-        out->y[i] = q->y[k];
-        out->z[i] = q->z[k];
-    }
-}
-
-ALWAYS void advance(Queue *q) {
-    for (int i = LANES; i < q->n; i++) {
-        q->of[i - LANES] = q->of[i];
-        q->x[i - LANES] = q->x[i];
-        q->y[i - LANES] = q->y[i];
-        q->z[i - LANES] = q->z[i];
-    }
+static void advance(Queue *q) {
+    for (int i = LANES; i < q->n; i++) q->of[i - LANES] = q->of[i];
     q->n = q->n > LANES ? q->n - LANES : 0;
 }
+
+/* The points from `first` on that are near. */
+ALWAYS void find(const Asked *asked, int first, int n, Queue *queue) {
+    int of[LANES], near[LANES];
+    Lanes p;
+    for (int i = 0; i < LANES; i++) of[i] = first + i;
+    bring(asked, of, n, &p);
+    if (!find_near(asked->part, &p, asked->far, near)) return;
+    for (int i = 0; i < n; i++) {
+        queue->of[queue->n] = first + i;
+        queue->n += near[i];
+    }
+}
+
+/* What the first look has found where the surface leans. */
+typedef struct {
+    Queue queue;
+    double distance[2 * LANES];
+    Vec3 normal[2 * LANES];
+} Leaning;
 
 ALWAYS void answer(const Asked *asked, int of, double distance, Vec3 normal) {
     if (distance >= asked->far) return;
@@ -152,71 +146,65 @@ ALWAYS void answer(const Asked *asked, int of, double distance, Vec3 normal) {
     if (asked->normal) asked->normal[of] = normal;
 }
 
-/* Where the surface leans: from the foot of the first distance again. */
-ALWAYS void look_again(const Asked *asked, Again *again) {
-    Queue *q = &again->wait;
-    Lanes p, foot, n;
-    double better[LANES];
-    int count = q->n < LANES ? q->n : LANES;
-    take(q, &p);
-    for (int i = 0; i < LANES; i++) {
-        int k = i < count ? i : count - 1;
-        foot.x[i] = p.x[i] + again->normal[k].x * -again->distance[k];
-        foot.y[i] = p.y[i] + again->normal[k].y * -again->distance[k];
-        foot.z[i] = p.z[i] + again->normal[k].z * -again->distance[k];
-    }
-    before_planes(asked->part, &foot, &p, better, &n);
-    for (int i = 0; i < count; i++) {
-        bool counts = (better[i] > 0) == (again->distance[i] > 0);
-        answer(asked, q->of[i], counts ? better[i] : again->distance[i],
-               counts ? vec(n.x[i], n.y[i], n.z[i]) : again->normal[i]);
-    }
-    for (int i = LANES; i < q->n; i++) {
-        again->distance[i - LANES] = again->distance[i];
-        again->normal[i - LANES] = again->normal[i];
-    }
-    advance(q);
-}
-
-ALWAYS void look(const Asked *asked, Queue *q, Again *again) {
+ALWAYS void look(const Asked *asked, Queue *queue, Leaning *leaning) {
     Lanes p, n;
     double distance[LANES];
-    int count = q->n < LANES ? q->n : LANES;
-    take(q, &p);
+    int count = queue->n < LANES ? queue->n : LANES;
+    bring(asked, queue->of, count, &p);
     before_planes(asked->part, &p, &p, distance, &n);
     for (int i = 0; i < count; i++) {
         Vec3 normal = vec(n.x[i], n.y[i], n.z[i]);
         if (distance[i] < asked->far && fabs(normal.y) > BODY_LEANING) {
-            again->distance[again->wait.n] = distance[i];
-            again->normal[again->wait.n] = normal;
-            enqueue(&again->wait, q->of[i], &p, i, 1);
+            int k = leaning->queue.n++;
+            leaning->queue.of[k] = queue->of[i];
+            leaning->distance[k] = distance[i];
+            leaning->normal[k] = normal;
         } else {
-            answer(asked, q->of[i], distance[i], normal);
+            answer(asked, queue->of[i], distance[i], normal);
         }
     }
-    advance(q);
-    if (again->wait.n >= LANES) look_again(asked, again);
+    advance(queue);
+}
+
+/* From the foot of the first distance again. */
+ALWAYS void look_again(const Asked *asked, Leaning *leaning) {
+    Lanes p, foot, n;
+    double better[LANES];
+    int count = leaning->queue.n < LANES ? leaning->queue.n : LANES;
+    bring(asked, leaning->queue.of, count, &p);
+    for (int i = 0; i < LANES; i++) {
+        int k = i < count ? i : count - 1;
+        double distance = leaning->distance[k];
+        foot.x[i] = p.x[i] + leaning->normal[k].x * -distance;
+        foot.y[i] = p.y[i] + leaning->normal[k].y * -distance;
+        foot.z[i] = p.z[i] + leaning->normal[k].z * -distance;
+    }
+    before_planes(asked->part, &foot, &p, better, &n);
+    for (int i = 0; i < count; i++) {
+        bool counts = (better[i] > 0) == (leaning->distance[i] > 0);
+        answer(asked, leaning->queue.of[i], counts ? better[i] : leaning->distance[i],
+               counts ? vec(n.x[i], n.y[i], n.z[i]) : leaning->normal[i]);
+    }
+    for (int i = LANES; i < leaning->queue.n; i++) {
+        leaning->distance[i - LANES] = leaning->distance[i];
+        leaning->normal[i - LANES] = leaning->normal[i];
+    }
+    advance(&leaning->queue);
 }
 
 ALWAYS void all(const BodyPart *part, const Rigid *to_part, const Vec3 *p, int n, double far, double *out,
                 Vec3 *normal) {
-    Asked asked = {part, far, out, normal};
+    Asked asked = {part, to_part, p, far, out, normal};
     Queue queue;
-    Again again;
-    queue.n = again.wait.n = 0;
+    Leaning leaning;
+    queue.n = leaning.queue.n = 0;
     for (int i = 0; i < n; i++) out[i] = far;
-    for (int first = 0; first < n; first += LANES) {
-        int near[LANES], count = n - first < LANES ? n - first : LANES;
-        Vec3 last[LANES];
-        Lanes at;
-        for (int i = 0; count < LANES && i < LANES; i++) last[i] = p[first + (i < count ? i : count - 1)];
-        bring(to_part, count < LANES ? last : p + first, &at);
-        if (!find_near(part, &at, far, near)) continue;
-        for (int i = 0; i < count; i++) enqueue(&queue, first + i, &at, i, near[i]);
-        if (queue.n >= LANES) look(&asked, &queue, &again);
+    for (int first = 0; first < n || queue.n + leaning.queue.n > 0; first += LANES) {
+        bool is_last = first + LANES >= n;
+        if (first < n) find(&asked, first, is_last ? n - first : LANES, &queue);
+        if (queue.n >= LANES || (is_last && queue.n > 0)) look(&asked, &queue, &leaning);
+        if (leaning.queue.n >= LANES || (is_last && queue.n == 0 && leaning.queue.n > 0)) look_again(&asked, &leaning);
     }
-    if (queue.n > 0) look(&asked, &queue, &again);
-    if (again.wait.n > 0) look_again(&asked, &again);
 }
 
 #ifdef VECTORS_ARE_X86
