@@ -37,8 +37,8 @@ typedef struct {
     int nplaces;
     int *place;         /* [patch][i * (side + 1) + j]: number of the place */
     int *owner;         /* place -> patch * (side + 1)^2 + i * (side + 1) + j of the patch that evaluates it */
-    unsigned *collide;  /* place -> parts that it must stay out of (those that its patches share) */
-    unsigned *outside;  /* place -> parts that come to it from outside; never one of `collide` */
+    unsigned *collide;  /* place -> parts that it is worn over: those that its patches share, and of limbs the next
+                           bones; all others come to it from outside */
     bool *pinned;       /* place */
     LatticeLevel level[LATTICE_LEVELS];
     double (*basis)[4], (*basis_slope)[4]; /* Bernstein values at i / side */

@@ -9,22 +9,21 @@
    way is no nearer. */
 typedef struct {
     Vec3 seen;                      /* the point that all this holds for */
-    unsigned roles;                 /* asked about: bits 1 << role */
     unsigned parts;                 /* near: bits 1 << part */
     float least;                    /* their least distance; what it was asked for where there is none */
     float distance[BODY_PARTS_MAX]; /* of those in `parts` */
 } Near;
 
-/* Fills near[v] for all vertices, the n-th at point[n], with the parts that are nearer than `far` of those that
-   its place keeps out of. known: those that stand where they were seen stay. */
+/* Fills near[v] for all vertices, the n-th at point[n], with the parts that are nearer than `far`. known: those
+   that stand where they were seen stay. */
 void near_find(Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3 *point, double far, bool known);
 
 /* Those of near->parts that have one of the roles (bits 1 << role). */
 unsigned near_parts(const Near *near, const BodyFrame *body, unsigned roles);
 
-/* The roles of near->roles whose parts do not hold p for certain. A guess would not do: distances are never more than
-   half too long (tests/unit_body.c), and only a half of them is trusted. */
-unsigned near_clear(const Near *near, Vec3 p);
+/* Does no part hold p for certain? A guess would not do: distances are never more than half too long
+   (tests/unit_body.c), and only a half of them is trusted. */
+bool near_clear(const Near *near, Vec3 p);
 
 /* How far the point may go before a part at `distance` can be nearer than `clearance`. */
 double near_slack(double distance, double clearance);

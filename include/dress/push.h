@@ -71,8 +71,8 @@ void push_rest(Push *p, const Sheet *sheet);
 /* Fills what the solution amounts to: active, pinched, displacement. */
 void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
 
-/* Per mesh vertex the parts (bits 1 << role) that it is known to be outside of. */
-void push_clear(const Push *p, const Sheet *sheet, unsigned *clear);
+/* Per mesh vertex whether it is known to be outside of all parts. */
+void push_clear(const Push *p, const Sheet *sheet, bool *clear);
 
 /* Keeps a solution of that many vertices, to take it back, with the sheet that it was made for, after
    another attempt. */

@@ -27,7 +27,7 @@ typedef struct {
     Tester tester;
     Vec3 *position;          /* of the sheet's vertices as they are written: output units, snapped */
     Vec3 *moved;             /* positions of the vertices that have moved since a test */
-    unsigned *clear;         /* per vertex: parts (bits 1 << role) that it is outside of for certain */
+    bool *clear;             /* per vertex: it is known to be outside of all parts */
 } Solver;
 
 /* Fit and lattice must outlive the solver. */

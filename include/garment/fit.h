@@ -38,8 +38,7 @@ typedef struct {
     int panel, row;  /* panel -1: raw patch `row` */
     int point[16];
     bool flip;       /* du x dw points into the body */
-    unsigned collide;/* roles, bit 1 << role: parts that it is worn over */
-    unsigned outside;/* roles that come from outside: arms and legs none of whose parts it is worn over */
+    unsigned collide;/* roles, bit 1 << role: parts that it is worn over; all others come to it from outside */
     unsigned pinned; /* sides that may not move, bit 1 << Side */
 } FitPatch;
 
@@ -59,7 +58,6 @@ typedef struct {
     FitRing ring[GARMENT_RINGS_MAX];
     Vec3 (*raw)[16];   /* control points of raw patches, sized to the figure */
     unsigned collide;  /* all parts that any patch is worn over */
-    unsigned outside;  /* all others that come to any patch from outside */
 } Fit;
 
 /* Names of the four control points along a side, in the direction of growing u or w. */

@@ -79,10 +79,7 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
     return true;
 }
 
-/* The parts that nothing was done about, and what is left in all. */
-static void final_test(Dresser *d, const BodyFrame *body, Wrong *w, FrameStats *stats, CrossingCount *count) {
-    double start = clock_seconds();
-    tester_cross(&d->solver.tester, body, ~(d->fit.collide | d->fit.outside), &w->own, &w->other, count);
+static void tell(const Wrong *w, FrameStats *stats) {
     stats->residual_edges = w->own.edges;
     stats->residual_cloth = w->own.cloth;
     stats->inside = w->own.inside;
@@ -90,7 +87,6 @@ static void final_test(Dresser *d, const BodyFrame *body, Wrong *w, FrameStats *
     stats->limb_edges = w->other.edges;
     stats->limb_cloth = w->other.cloth;
     stats->limb_inside = w->other.inside;
-    stats->test_s += clock_seconds() - start;
 }
 
 static void set_groups(Dresser *d, const int *first_of_patch, Mesh *mesh) {
@@ -158,7 +154,8 @@ static void frame_to_the_letter(Dresser *d, const BodyFrame *body, bool restart,
     double start = clock_seconds();
     Wrong w = solver_test(&d->solver, body, mesh, &count);
     stats->test_s += clock_seconds() - start;
-    final_test(d, body, &w, stats, &count);
+    stats->test_s += clock_seconds() - start;
+    tell(&w, stats);
     stats->pairs_all += count.pairs_all;
     stats->pairs_tested += count.pairs_tested;
 }
@@ -177,7 +174,7 @@ void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, M
 
     Wrong w = solver_frame(&d->solver, body, d->root, dt, restart, d->options.method == METHOD_GLOBAL, stats,
                            &found.count);
-    final_test(d, body, &w, stats, &found.count);
+    tell(&w, stats);
 
     start = clock_seconds();
     fill_mesh(d, mesh);

@@ -71,10 +71,18 @@ static void number_places(Lattice *l, int *corner) {
     }
 }
 
-/* Colliders and pins of the places. A place on a shared edge keeps out of what both patches keep
-   out of: at a crotch, where the legs themselves touch, nothing else can be asked. What only one of
-   them is worn over comes to it from outside, if it comes so to the other. Where two patches have
-   nothing in common it keeps out of both's. */
+/* A short sleeve ends above the elbow, but a bent arm brings the forearm to it, and a bent leg the foot to a skirt: cloth
+   that is worn over a bone of a limb has its side of the next one too. */
+static unsigned with_next_bones(unsigned collide) {
+    unsigned next = 0;
+    for (int r = 0; r + 1 < ROLE_COUNT; r++)
+        if (role_limb((Role)r) > 0 && role_limb((Role)(r + 1)) == role_limb((Role)r)) next |= (collide & 1u << r) << 1;
+    return collide | next;
+}
+
+/* Colliders and pins of the places. A place on a shared edge is worn over what both patches are worn over: at a
+   crotch, where the legs themselves touch, nothing else can be asked. Where two patches have nothing in
+   common it keeps out of both's. */
 static void mark_places(Lattice *l) {
     for (int place = 0; place < l->nplaces; place++) l->collide[place] = ~0u;
     for (int p = 0; p < l->fit->npatches; p++)
@@ -87,15 +95,8 @@ static void mark_places(Lattice *l) {
                 if (!*collide) *collide = UNSHARED;
                 if (*collide & UNSHARED) *collide |= l->fit->patch[p].collide;
             }
-    for (int place = 0; place < l->nplaces; place++) {
-        l->collide[place] &= ~UNSHARED;
-        l->outside[place] = ~l->collide[place];
-    }
-    for (int p = 0; p < l->fit->npatches; p++) {
-        unsigned keeps_out_of = l->fit->patch[p].collide | l->fit->patch[p].outside;
-        for (int i = 0; i <= l->side; i++)
-            for (int j = 0; j <= l->side; j++) l->outside[*slot(l, p, i, j)] &= keeps_out_of;
-    }
+    for (int place = 0; place < l->nplaces; place++)
+        l->collide[place] = with_next_bones(l->collide[place] & ~UNSHARED);
     for (int p = 0; p < l->fit->npatches; p++) {
         const FitPatch *patch = &l->fit->patch[p];
         for (int s = 0; s < 4; s++)
@@ -182,13 +183,12 @@ bool lattice_build(const Fit *fit, int detail, int depth, Arena *arena, Lattice 
     out->place = ARENA_NEW(arena, int, most, e);
     out->owner = ARENA_NEW(arena, int, most, e);
     out->collide = ARENA_NEW(arena, unsigned, most, e);
-    out->outside = ARENA_NEW(arena, unsigned, most, e);
     out->pinned = ARENA_NEW(arena, bool, most, e);
     out->basis = arena_array(arena, (size_t)n, sizeof *out->basis, e);
     out->basis_slope = arena_array(arena, (size_t)n, sizeof *out->basis_slope, e);
     int *scratch = ARENA_NEW(arena, int, most > fit->npoints ? most : fit->npoints, e);
-    if (!out->place || !out->owner || !out->collide || !out->outside || !out->pinned || !out->basis ||
-        !out->basis_slope || !scratch)
+    if (!out->place || !out->owner || !out->collide || !out->pinned || !out->basis || !out->basis_slope ||
+        !scratch)
         return false;
     number_places(out, scratch);
     mark_places(out);

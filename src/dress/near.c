@@ -25,14 +25,14 @@ typedef struct {
     unsigned parts[LOT], any;
 } Lot;
 
-/* Asks one part about those of a lot that are asked about its role. */
+/* Asks one part about those of a lot that it may be near to. */
 static void ask(Near *near, const BodyFrame *body, int part, const Vec3 *point, const Lot *lot, double far) {
     int vertex[LOT], n = 0;
     Vec3 at[LOT];
     double distance[LOT];
     for (int k = 0; k < lot->n; k++) {
         int v = lot->vertex[k];
-        if (!(lot->parts[k] >> part & 1) || !(near[v].roles & part_bit(body, part))) continue;
+        if (!(lot->parts[k] >> part & 1)) continue;
         if (body_frame_far(body, part, point[v], far)) continue;
         at[n] = point[v];
         vertex[n++] = v;
@@ -50,14 +50,12 @@ static void ask(Near *near, const BodyFrame *body, int part, const Vec3 *point, 
 
 /* Forgets what is known of the vertices first..end-1, but for those that stand where they were seen, and puts them
    into the lot. */
-static void add_block(Lot *lot, Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3 *point, int first,
-                      int end, double far, bool known) {
-    const Lattice *l = sheet->lattice;
+static void add_block(Lot *lot, Near *near, const BodyFrame *body, const Vec3 *point, int first, int end, double far,
+                      bool known) {
     int before = lot->n;
     for (int v = first; v < end; v++) {
         if (known && vec_dist(point[v], near[v].seen) == 0) continue;
         near[v].seen = point[v];
-        near[v].roles = l->collide[sheet->place[v]] | l->outside[sheet->place[v]];
         near[v].parts = 0;
         near[v].least = (float)far;
         lot->vertex[lot->n++] = v;
@@ -75,7 +73,7 @@ void near_find(Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3
         lot.any = 0;
         for (; first < sheet->nvertices && lot.n <= LOT - BLOCK; first += BLOCK) {
             int end = first + BLOCK < sheet->nvertices ? first + BLOCK : sheet->nvertices;
-            add_block(&lot, near, body, sheet, point, first, end, far, known);
+            add_block(&lot, near, body, point, first, end, far, known);
         }
         for (int part = 0; lot.any >> part; part++)
             if (lot.any >> part & 1) ask(near, body, part, point, &lot, far);
@@ -95,9 +93,7 @@ unsigned near_parts(const Near *near, const BodyFrame *body, unsigned roles) {
     return parts;
 }
 
-unsigned near_clear(const Near *near, Vec3 p) {
-    return vec_dist(p, near->seen) < 0.5 * near->least ? near->roles : 0;
-}
+bool near_clear(const Near *near, Vec3 p) { return vec_dist(p, near->seen) < 0.5 * near->least; }
 
 double near_slack(double distance, double clearance) { return LIPSCHITZ * (distance - clearance); }
 

@@ -103,8 +103,7 @@ static Vec3 sample_point(const Push *p, const Sheet *sheet, const PushSample *s,
 /* Parts that move the surface at a place: those that it is worn over, and those that the garment is worn
    over elsewhere, as the other leg is for one of trousers. */
 static unsigned movers(const Push *p, int place) {
-    const Lattice *l = p->lattice;
-    return l->collide[place] | (l->outside[place] & l->fit->collide);
+    return p->lattice->collide[place] | p->lattice->fit->collide;
 }
 
 static void add_sample(Push *p, int vertex, int place, unsigned parts, double far) {
@@ -277,8 +276,8 @@ void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *
     find_points(p, sheet);
 }
 
-void push_clear(const Push *p, const Sheet *sheet, unsigned *clear) {
-    for (int v = 0; v < sheet->nvertices; v++) clear[v] = p->near_known ? near_clear(&p->near[v], p->point[v]) : 0;
+void push_clear(const Push *p, const Sheet *sheet, bool *clear) {
+    for (int v = 0; v < sheet->nvertices; v++) clear[v] = p->near_known && near_clear(&p->near[v], p->point[v]);
 }
 
 void push_keep(Push *p, int nvertices) {

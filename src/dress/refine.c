@@ -141,8 +141,7 @@ static void open_to_limbs(const Classifier *c, const Patch *root, const BodyFram
         for (int i = 0; i <= l->side; i += l->detail)
             for (int j = 0; j <= l->side; j += l->detail) {
                 int place = lattice_place(l, p, i, j);
-                unsigned outside = l->outside[place];
-                if (outside && body_frame_inside(body, outside, lattice_point(l, root, place)))
+                if (body_frame_inside(body, ~l->collide[place], lattice_point(l, root, place)))
                     leaves_split(leaves, p, 1, step[i].cell, step[j].cell);
             }
 }

@@ -210,7 +210,7 @@ static void box_vertices(Tester *t, const Vec3 *position, int n, double to_metre
     }
 }
 
-void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, const unsigned *clear,
+void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, const bool *clear,
                    Residual *own, Residual *other) {
     double to_metres = 1 / body->unit;
     box_vertices(t, position, nvertices, to_metres);
@@ -220,7 +220,7 @@ void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int n
                 v += BLOCK - 1;
                 continue;
             }
-            if (clear && clear[v] & part_bit(body, p)) continue;
+            if (clear && clear[v]) continue;
             double d = body_frame_distance(body, p, vec_scale(position[v], to_metres), 0, NULL);
             if (d >= 0) continue;
             Residual *r = t->own & part_bit(body, p) ? own : other;

@@ -15,18 +15,12 @@ bool settle_reserve(Settler *s, const Lattice *lattice, Arena *arena, Error *e) 
 
 void settle_start(Settler *s) { s->nraised = s->nmarked = 0; }
 
-/* All that a place keeps out of. Arms that touch a skirt dent it by single vertices: coarse displacements for
-   them and for the legs would fight. */
-static unsigned parts_at(const Push *p, int place) {
-    const Lattice *l = p->field.lattice;
-    return l->collide[place] | l->outside[place];
-}
-
-/* Parts of `roles` (bits 1 << role) that lie within `far` of x: bits 1 << part. */
-static unsigned parts_near(const BodyFrame *body, unsigned roles, Vec3 x, double far) {
+/* Parts that lie within `far` of x: bits 1 << part. Also arms that touch a skirt, which dent it by single vertices:
+   coarse displacements for them and for the legs would fight. */
+static unsigned parts_near(const BodyFrame *body, Vec3 x, double far) {
     unsigned near = 0;
     for (int k = 0; k < body->body->nparts; k++)
-        if (roles & part_bit(body, k) && body_frame_unpressed(body, k, x, far) < far) near |= 1u << k;
+        if (body_frame_unpressed(body, k, x, far) < far) near |= 1u << k;
     return near;
 }
 
@@ -60,7 +54,7 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
     EscapePoint at = {.place = sheet->place[vertex], .at = p->point[vertex], .clearance = p->clearance[vertex]};
     const Near *seen = &p->near[vertex];
     if (near_slack(seen->least, at.clearance) > vec_dist(at.at, seen->seen)) return;
-    at.near = parts_near(body, parts_at(p, at.place), at.at, at.clearance);
+    at.near = parts_near(body, at.at, at.clearance);
     bool moved = true;
     for (int step = 0; step < STEPS_MAX && moved; step++) {
         moved = false;
@@ -99,7 +93,7 @@ void settle_hit(Push *p, const BodyFrame *body, const Sheet *sheet, const Tester
     bool capped = false;
     Vec3 n;
     for (int c = 0; c < hit->n; c++) {
-        if (!is_raised(p, hit->v[c]) || !(parts_at(p, sheet->place[hit->v[c]]) & part_bit(body, hit->part))) return;
+        if (!is_raised(p, hit->v[c])) return;
         at.at = vec_mad(at.at, p->point[hit->v[c]], hit->weight[c]);
         norm2 += hit->weight[c] * hit->weight[c];
         if (hit->weight[c] > hit->weight[nearest]) nearest = c;

@@ -39,7 +39,7 @@ bool solver_reserve(Solver *s, const Fit *fit, const Lattice *lattice, const Dre
         return false;
     s->position = ARENA_NEW(arena, Vec3, places, e);
     s->moved = ARENA_NEW(arena, Vec3, places, e);
-    s->clear = ARENA_NEW(arena, unsigned, places, e);
+    s->clear = ARENA_NEW(arena, bool, places, e);
     leaves_fill(&s->grid, lattice->depth);
     return s->position && s->moved && s->clear;
 }
@@ -58,10 +58,10 @@ static void add_count(CrossingCount *sum, const CrossingCount *c) {
 }
 
 /* What s->tester holds, against all that the garment keeps out of. */
-static Wrong test_built(Solver *s, const BodyFrame *body, const Vec3 *position, int nvertices, const unsigned *clear,
+static Wrong test_built(Solver *s, const BodyFrame *body, const Vec3 *position, int nvertices, const bool *clear,
                         CrossingCount *count) {
     Wrong w = {0};
-    tester_cross(&s->tester, body, s->fit->collide | s->fit->outside, &w.own, &w.other, &w.count);
+    tester_cross(&s->tester, body, ~0u, &w.own, &w.other, &w.count);
     tester_inside(&s->tester, body, position, nvertices, clear, &w.own, &w.other);
     add_count(count, &w.count);
     return w;
@@ -74,9 +74,9 @@ static Wrong test_mesh(Solver *s, const BodyFrame *body, CrossingCount *count) {
 }
 
 /* The same, where the last test has found w, and since then n vertices have moved to where s->moved says. */
-static Wrong test_moved(Solver *s, const BodyFrame *body, const int *vertex, int n, const unsigned *clear, Wrong w,
+static Wrong test_moved(Solver *s, const BodyFrame *body, const int *vertex, int n, const bool *clear, Wrong w,
                         CrossingCount *count) {
-    tester_move(&s->tester, body, s->fit->collide | s->fit->outside, vertex, s->moved, n, &w.own, &w.other, &w.count);
+    tester_move(&s->tester, body, ~0u, vertex, s->moved, n, &w.own, &w.other, &w.count);
     w.own.inside = w.other.inside = 0;
     w.own.deepest = w.other.deepest = 0;
     tester_inside(&s->tester, body, s->position, s->sheet.nvertices, clear, &w.own, &w.other);

@@ -372,24 +372,11 @@ static void face_outwards(Tailor *t, int p) {
         if (f->patch[k].panel == p) f->patch[k].flip = outward < 0;
 }
 
-static unsigned roles_outside(unsigned collide) {
-    unsigned limbs = 0, outside = 0;
-    for (int r = 0; r < ROLE_COUNT; r++)
-        if (collide >> r & 1) limbs |= 1u << role_limb((Role)r);
-    for (int r = 0; r < ROLE_COUNT; r++)
-        if (role_limb((Role)r) > 0 && !(limbs >> role_limb((Role)r) & 1)) outside |= 1u << r;
-    return outside;
-}
-
 /* A patch for which nothing is said meets every part that the garment names at all. */
 static void complete_colliders(Fit *f) {
     for (int p = 0; p < f->npatches; p++) f->collide |= f->patch[p].collide;
     for (int p = 0; p < f->npatches; p++)
         if (!f->patch[p].collide) f->patch[p].collide = f->collide;
-    for (int p = 0; p < f->npatches; p++) {
-        f->patch[p].outside = roles_outside(f->patch[p].collide);
-        f->outside |= f->patch[p].outside & ~f->collide;
-    }
 }
 
 bool fit_garment(const Garment *garment, const Figure *figure, const Body *body, Arena *arena, Fit *out, Error *e) {
