@@ -49,8 +49,9 @@ static bool press(BodyFrame *f, int part, const Contact *contact) {
         body_frame_unpressed_many(f, part, near.skin, near.n, INFINITY, level, normal);
         for (int i = 0; i < near.n; i++) {
             Give *give = &f->give[near.vertex[i]];
+            double by = yield_by(contact, scale, near.skin[i], level[i], distance[i], away[i], &normal[i]);
             give->level = level[i];
-            give->by = fmax(give->by, yield_by(contact, scale, near.skin[i], level[i], distance[i], away[i], &normal[i]));
+            give->by = fmax(give->by, by);
         }
     }
     return any;
