@@ -384,6 +384,17 @@ static void test_role_files(void) {
     test_file("left_shin = none\n", "missing roles: left_shin", 0, 0);
 }
 
+static void mirrors_are_their_own_mirror(void) {
+    int wrong = 0, alone = 0;
+    for (Role r = 0; r < ROLE_COUNT; r++) {
+        Role other = role_mirror(r);
+        bool named = strncmp(role_name(r), "left_", 5) != 0 || strcmp(role_name(r) + 5, role_name(other) + 6) == 0;
+        wrong += role_mirror(other) != r || !named;
+        alone += other == r;
+    }
+    OK(wrong == 0 && alone == ROLE_HEAD + 1, "the mirror of a mirror is the role itself, and only the trunk has none");
+}
+
 int main(void) {
     if (!folder_make()) return 1;
     test_names();
@@ -394,6 +405,7 @@ int main(void) {
     test_oddities();
     test_two_roots();
     test_role_files();
+    mirrors_are_their_own_mirror();
     folder_remove();
     return tap_done();
 }

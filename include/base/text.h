@@ -66,6 +66,10 @@ bool text_error(const Line *line, int i, Error *e, const char *fmt, ...) PRINTF_
    correctly rounded; overflow gives infinity, underflow 0. */
 const char *text_number(const char *s, const char *end, double *out);
 
+/* x in the fewest digits that read back as x; returns `out`. Round numbers stay plain: 20, not 2e+01. */
+enum { TEXT_SHORTEST = 32 };
+const char *text_shortest(double x, char out[TEXT_SHORTEST]);
+
 /* Edit distance for "did you mean", capped at 9. */
 int text_distance(const char *a, const char *b);
 

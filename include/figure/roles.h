@@ -23,6 +23,9 @@ Role role_find(const char *name, int length);
    the legs. Roles of a limb follow each other from the trunk outwards. */
 int role_limb(Role role);
 
+/* The same role on the other side; of the trunk itself. */
+Role role_mirror(Role role);
+
 /* joint[role]: the joint whose rotation moves that bone and at whose origin it begins; -1 =
    the skeleton has none. Pelvis, chest, and on both sides upper arm, forearm, thigh and shin
    are always there after a success. */

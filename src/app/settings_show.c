@@ -1,19 +1,14 @@
 /* The way back from a field of Settings to the text that was put there: for --print-job, and for the
    record of what a motion was dressed with. What settings_put makes of the text is the same
    value again, to the last bit. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "app/settings.h"
+#include "base/text.h"
 
-/* The fewest digits that give x back. */
 static void show_real(double x, FILE *out) {
-    char text[40];
-    for (int digits = 6; digits <= 17; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, x);
-        if (strtod(text, NULL) == x) break;
-    }
-    fputs(text, out);
+    char text[TEXT_SHORTEST];
+    fputs(text_shortest(x, text), out);
 }
 
 static void show_unit(double metres, FILE *out) {

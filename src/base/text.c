@@ -178,6 +178,14 @@ bool text_word(const Line *line, int i, char *out, size_t n, Error *e) {
     return true;
 }
 
+const char *text_shortest(double x, char out[TEXT_SHORTEST]) {
+    for (int digits = 6; digits <= 17; digits++) {
+        snprintf(out, TEXT_SHORTEST, "%.*g", digits, x);
+        if (strtod(out, NULL) == x) break;
+    }
+    return out;
+}
+
 int text_distance(const char *a, const char *b) {
     enum { MOST = 40 };
     int row[MOST + 1], la = (int)strlen(a), lb = (int)strlen(b);

@@ -2,7 +2,6 @@
    compared line by line. garments/BODY.md is the manual of the format. */
 #include "figure/body.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 enum { BODY_FILE_MAX = 1 << 20 };
@@ -22,18 +21,9 @@ static double *column_of(Section *s, int i) {
     return column[i];
 }
 
-static Role mirror_of(Role role) {
-    int arm = ROLE_RIGHT_CLAVICLE - ROLE_LEFT_CLAVICLE, leg = ROLE_RIGHT_THIGH - ROLE_LEFT_THIGH, r = (int)role;
-    if (role >= ROLE_RIGHT_THIGH) return (Role)(r - leg);
-    if (role >= ROLE_LEFT_THIGH) return (Role)(r + leg);
-    if (role >= ROLE_RIGHT_CLAVICLE) return (Role)(r - arm);
-    if (role >= ROLE_LEFT_CLAVICLE) return (Role)(r + arm);
-    return ROLE_COUNT;
-}
-
 static BodyPartSpec mirrored(const BodyPartSpec *part) {
     BodyPartSpec other = *part;
-    other.role = mirror_of(part->role);
+    other.role = role_mirror(part->role);
     for (int i = 0; i < other.nsections; i++)
         if (other.section[i].x != 0) other.section[i].x = -other.section[i].x;
     return other;
@@ -69,9 +59,9 @@ static bool read_role(const Line *line, const BodySpec *body, Role *role, Error 
 static bool read_mirror(const Line *line, BodySpec *body, Error *e) {
     Role role = ROLE_COUNT;
     if (!read_role(line, body, &role, e)) return false;
-    if (mirror_of(role) == ROLE_COUNT) return text_error(line, 1, e, "'%s' has no other side", role_name(role));
-    const BodyPartSpec *other = find_part(body, mirror_of(role));
-    if (!other) return text_error(line, 1, e, "'%s' must be given before its mirror", role_name(mirror_of(role)));
+    if (role_mirror(role) == role) return text_error(line, 1, e, "'%s' has no other side", role_name(role));
+    const BodyPartSpec *other = find_part(body, role_mirror(role));
+    if (!other) return text_error(line, 1, e, "'%s' must be given before its mirror", role_name(role_mirror(role)));
     body->part[body->nparts++] = mirrored(other);
     return true;
 }
@@ -160,15 +150,10 @@ bool body_read(const char *path, Arena *scratch, BodySpec *out, Error *e) {
     return text_read(path, BODY_FILE_MAX, scratch, &text, e) && body_parse(&text, out, e);
 }
 
-/* The fewest digits that read back as x: "0.052", not "0.051999999999999998". At least `width`
-   bytes, so that columns stand under each other. */
+/* At least `width` bytes, so that columns stand under each other. */
 static void write_number(double x, int width, FILE *out) {
-    char digits[40];
-    for (int precision = 1; precision <= 17; precision++) {
-        snprintf(digits, sizeof digits, "%.*g", precision, x);
-        if (strtod(digits, NULL) == x) break;
-    }
-    fprintf(out, " %*s", width, digits);
+    char text[TEXT_SHORTEST];
+    fprintf(out, " %*s", width, text_shortest(x, text));
 }
 
 static bool same_part(const BodyPartSpec *a, const BodyPartSpec *b) {
@@ -185,7 +170,7 @@ static bool same_part(const BodyPartSpec *a, const BodyPartSpec *b) {
 /* Is part i the mirror of one that stands before it? */
 static bool is_mirror(const BodySpec *body, int i) {
     for (int k = 0; k < i; k++) {
-        if (mirror_of(body->part[k].role) != body->part[i].role) continue;
+        if (role_mirror(body->part[k].role) != body->part[i].role) continue;
         BodyPartSpec other = mirrored(&body->part[k]);
         return same_part(&other, &body->part[i]);
     }

@@ -57,7 +57,7 @@ static bool arms_are_human(const Skeleton *s, const Figure *f, Mat3 frame) {
     Mat3 to_body = mat_transpose(frame);
     for (int r = ROLE_LEFT_UPPER_ARM; r <= ROLE_LEFT_FOREARM; r++) {
         Vec3 left = mat_apply(to_body, rest_bone(s, f, (Role)r));
-        Vec3 right = mat_apply(to_body, rest_bone(s, f, (Role)(r + ROLE_RIGHT_CLAVICLE - ROLE_LEFT_CLAVICLE)));
+        Vec3 right = mat_apply(to_body, rest_bone(s, f, role_mirror((Role)r)));
         if (left.y > 0.5 || left.x < -0.3 || vec_dist(left, vec(-right.x, right.y, right.z)) > 0.5) return false;
     }
     return true;

@@ -31,6 +31,12 @@ int role_limb(Role role) {
     return limb;
 }
 
+Role role_mirror(Role role) {
+    int limb = role_limb(role), way = limb == 0 ? 0 : limb % 2 ? 1 : -1; /* from a left limb to a right one, or back */
+    int arm = ROLE_RIGHT_CLAVICLE - ROLE_LEFT_CLAVICLE, leg = ROLE_RIGHT_THIGH - ROLE_LEFT_THIGH;
+    return (Role)((int)role + way * (limb < 3 ? arm : leg));
+}
+
 Role role_find(const char *name, int length) {
     for (int r = 0; r < ROLE_COUNT; r++)
         if ((int)strlen(names[r]) == length && memcmp(names[r], name, (size_t)length) == 0) return (Role)r;
@@ -148,5 +154,4 @@ bool roles_read(const Motion *m, const char *roles_file, Arena *scratch, Notes *
     human_find(&tree, sides_are_told ? NULL : notes, out);
     take_from_file(given, &file, out);
     return check_distinct(&m->skeleton, out, e) && check_required(m, out, e);
-    return check_required(m, out, e);
 }

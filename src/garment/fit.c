@@ -31,11 +31,6 @@ typedef struct {
 
 static bool is_leg(Role r) { return r >= ROLE_LEFT_THIGH; }
 
-static Role other_leg(Role r) {
-    int side = ROLE_RIGHT_THIGH - ROLE_LEFT_THIGH;
-    return (Role)(r < ROLE_RIGHT_THIGH ? (int)r + side : (int)r - side);
-}
-
 static const BodyPart *part_of(const Body *body, Role role) {
     return body->of_role[role] < 0 ? NULL : &body->part[body->of_role[role]];
 }
@@ -76,7 +71,7 @@ static bool place_ring(Tailor *t, int r, Error *e) {
     if (x.x < 0) x = vec_scale(x, -1);
     if (z.z < 0) z = vec_scale(z, -1);
     double least = 0;
-    const BodyPart *twin = is_leg(ring->part) ? part_of(t->body, other_leg(ring->part)) : NULL;
+    const BodyPart *twin = is_leg(ring->part) ? part_of(t->body, role_mirror(ring->part)) : NULL;
     if (t->g->follow == FOLLOW_ENVELOPE && twin) {
         s = round_both_legs(part, twin, ring->at, &centre);
         least = s.side + 0.015 * scale; /* wide hips widen a skirt of fixed size */

@@ -62,15 +62,6 @@ static bool other_name(Mirror *m, const char *name, char out[GARMENT_NAME_MAX]) 
     return check_name(out, m->why);
 }
 
-static Role other_role(Role role) {
-    if (role >= ROLE_LEFT_CLAVICLE && role <= ROLE_LEFT_HAND) return role + (ROLE_RIGHT_CLAVICLE - ROLE_LEFT_CLAVICLE);
-    if (role >= ROLE_RIGHT_CLAVICLE && role <= ROLE_RIGHT_HAND)
-        return role - (ROLE_RIGHT_CLAVICLE - ROLE_LEFT_CLAVICLE);
-    if (role >= ROLE_LEFT_THIGH && role <= ROLE_LEFT_TOE) return role + (ROLE_RIGHT_THIGH - ROLE_LEFT_THIGH);
-    if (role >= ROLE_RIGHT_THIGH && role <= ROLE_RIGHT_TOE) return role - (ROLE_RIGHT_THIGH - ROLE_LEFT_THIGH);
-    return role;
-}
-
 static Station other_station(Station s) {
     return s == STATION_LEFT ? STATION_RIGHT : s == STATION_RIGHT ? STATION_LEFT : s;
 }
@@ -79,7 +70,7 @@ static Station other_station(Station s) {
 static Vec3 other_vector(Vec3 v) { return vec(0 - v.x, v.y, v.z); }
 
 static Binding other_binding(Binding b) {
-    for (int i = 0; i < b.n; i++) b.bone[i] = other_role(b.bone[i]);
+    for (int i = 0; i < b.n; i++) b.bone[i] = role_mirror(b.bone[i]);
     return b;
 }
 
@@ -105,7 +96,7 @@ static bool mirror_rings(Mirror *m) {
         if (!has_prefix(m, ring.name)) continue;
         if (!other_name(m, g->ring[i].name, ring.name)) return false;
         if (g->nrings == GARMENT_RINGS_MAX) return no(m, "more than %d rings", GARMENT_RINGS_MAX);
-        ring.part = other_role(ring.part);
+        ring.part = role_mirror(ring.part);
         ring.shift = other_vector(ring.shift);
         ring.tilt = 0 - ring.tilt;
         for (int s = 0; s < STATION_COUNT; s++) {
@@ -182,7 +173,7 @@ static bool mirror_joins_and_seams(Mirror *m) {
 static unsigned other_parts(unsigned parts) {
     unsigned image = 0;
     for (Role r = 0; r < ROLE_COUNT; r++)
-        if (parts & 1u << r) image |= 1u << other_role(r);
+        if (parts & 1u << r) image |= 1u << role_mirror(r);
     return image;
 }
 

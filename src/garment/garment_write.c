@@ -3,16 +3,9 @@
    made here is stable. Mirrors were expanded by the parser. */
 #include "garment/garment.h"
 
-#include <stdlib.h>
-#include <string.h>
-
 static void put_number(FILE *out, double x) {
-    char text[40];
-    for (int digits = 1; digits <= 17; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, x);
-        if (strtod(text, NULL) == x) break;
-    }
-    fprintf(out, " %s", text);
+    char text[TEXT_SHORTEST];
+    fprintf(out, " %s", text_shortest(x, text));
 }
 
 static void put_vector(FILE *out, Vec3 v) {
