@@ -43,7 +43,7 @@ typedef struct {
 /* The compiled-in adult. */
 const BodySpec *body_default(void);
 
-/* Text format, documented in garments/README.md. Reading what was written gives the same. */
+/* Text format, documented in garments/BODY.md. Reading what was written gives the same. */
 MUST_CHECK bool body_read(const char *path, Arena *scratch, BodySpec *out, Error *e);
 MUST_CHECK bool body_parse(const Text *text, BodySpec *out, Error *e);
 bool body_write(const BodySpec *body, FILE *out);

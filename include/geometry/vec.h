@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdbool.h>
 
+#define PI 3.14159265358979323846
+
 typedef struct { double x, y, z; } Vec3;
 typedef struct { Vec3 r[3]; } Mat3;            /* rows */
 typedef struct { Mat3 r; Vec3 t; } Rigid;      /* p' = r p + t */
@@ -62,7 +64,7 @@ static inline Mat3 mat_between(Vec3 a, Vec3 b) {
     double c = vec_dot(a, b);
     if (c < -0.999999) {
         Vec3 axis = vec_unit_or(vec_mad(vec(1, 0, 0), a, -a.x), vec(0, 0, 1));
-        return mat_axis_angle(axis, 3.14159265358979323846);
+        return mat_axis_angle(axis, PI);
     }
     Vec3 v = vec_cross(a, b);
     double k = 1.0 / (1.0 + c);
@@ -123,7 +125,5 @@ static inline double smoothstep(double a, double b, double x) {
     double t = clamp((x - a) / (b - a), 0, 1);
     return t * t * (3 - 2 * t);
 }
-
-#define PI 3.14159265358979323846
 
 #endif

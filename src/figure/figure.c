@@ -94,7 +94,7 @@ static Mat3 bound_turn(const Poser *p, Role role) {
 static void pose_spine(const Poser *p) {
     const Figure *f = p->f;
     Rigid pelvis = p->pose->bone[ROLE_PELVIS], chest = p->pose->bone[ROLE_CHEST];
-    Mat3 r = mat_from_quat(quat_nlerp(quat_from_mat(pelvis.r), quat_from_mat(chest.r), 0.5));
+    Mat3 r = mat_nlerp(pelvis.r, chest.r, 0.5);
     Vec3 middle = vec_mid(f->start[ROLE_SPINE], f->end[ROLE_SPINE]);
     Vec3 place = vec_mid(rigid_apply(pelvis, f->start[ROLE_SPINE]), rigid_apply(chest, f->end[ROLE_SPINE]));
     p->pose->bone[ROLE_SPINE] = placed(r, middle, place);
@@ -112,7 +112,7 @@ static void pose_neck_and_head(const Poser *p) {
     }
     Rigid head = rigid_mul(joint_in_world(p, f->roles.joint[ROLE_HEAD]), f->bind[ROLE_HEAD]);
     Vec3 skull = rigid_apply(head, f->start[ROLE_HEAD]);
-    Mat3 half = mat_from_quat(quat_nlerp(quat_from_mat(chest.r), quat_from_mat(head.r), 0.5));
+    Mat3 half = mat_nlerp(chest.r, head.r, 0.5);
     Rigid neck = placed(point_along(f, ROLE_NECK, half, vec_sub(skull, base)), f->start[ROLE_NECK], base);
     p->pose->bone[ROLE_NECK] = neck;
     Vec3 start = not_far(p, rigid_apply(neck, f->end[ROLE_NECK]), skull);

@@ -9,7 +9,9 @@ enum { PAIRS = 8 };
 /* Proportions of the reference figure: arm (upper + fore) and torso (hip to shoulder line)
    against the leg (thigh + shin). */
 static const double ARM_BY_LEG = 0.66, TORSO_BY_LEG = 0.62;
-static const double ODD_LENGTHS = 4, LEGS_DOWN = 6, NO_HEAD = 3, STATURE_BY_LIMBS = 1.70 / 1.305;
+/* Stature against leg and torso together, metres of the reference figure. */
+static const double STATURE_BY_LIMBS = 1.70 / 1.305;
+static const double ODD_LENGTHS = 4, LEGS_DOWN = 6, NO_HEAD = 3; /* points */
 /* Beyond these (arm against leg, torso against leg) it is a bird or a giraffe, whatever the names say. People have
    0.5 to 0.7, figures of fancy up to twice that. */
 static const double ARM_LEAST = 0.3, ARM_MOST = 1.6, TORSO_LEAST = 0.2, TORSO_MOST = 1.8;
