@@ -51,6 +51,9 @@ bool error_set(Error *e, ErrorKind kind, const char *fmt, ...) PRINTF_LIKE(3, 4)
 /* The same with a place in an input file. */
 bool error_at(Error *e, ErrorKind kind, Place place, const char *fmt, ...) PRINTF_LIKE(4, 5);
 
+/* How many bytes of a wrong word of that length a message shows: for "%.*s". */
+static inline int error_shown(long length) { return length < 40 ? (int)length : 40; }
+
 /* Prints `file:line:column: error: text`, the line and a caret; without a place
    `kitsuke: text`. Bytes that a terminal could take as a command are shown as '?'. */
 void error_print(const Error *e, FILE *out);

@@ -68,6 +68,8 @@ int asf_bone(const Acclaim *a, Word name);
 /* motion.c: opens a regular file, or spools anything else. ERR_INPUT for a directory, a
    missing file, an empty one or one with NUL bytes at its start. */
 MUST_CHECK bool source_file(const char *path, int *fd, Error *e);
+/* PARENT_End, the name of an end site. NULL with an error where memory is exhausted. */
+const char *source_end_name(Opening *o, const char *parent, Error *e);
 /* Copies the joints into the motion's arena and says which names are there twice. */
 MUST_CHECK bool source_skeleton(Opening *o, const Joint *joint, int njoints, Error *e);
 /* The stream stands at the first value of `frame`: remember it if it is time. */

@@ -92,7 +92,7 @@ static bool mark_part(const Mesh *body, const char *path, const char *name, size
     for (int g = 0; g < body->ngroups && used < sizeof has; g++)
         used += (size_t)snprintf(has + used, sizeof has - used, "%s%s", g ? ", " : "", body->group[g].name);
     return error_set(e, ERR_USAGE, "option '--parts': '%s' has no group '%.*s'; it has %s", path,
-                     (int)(length < 40 ? length : 40), name, body->ngroups ? has : "none");
+                     error_shown((long)length), name, body->ngroups ? has : "none");
 }
 
 static bool find_parts(Run *r, const char *path, bool **wanted, Error *e) {

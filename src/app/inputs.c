@@ -6,7 +6,6 @@
    a name is cleaned, so that no file leads out of the output folder, whatever it is called. */
 #include "app/inputs.h"
 
-#include <dirent.h>
 #include <glob.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -15,6 +14,7 @@
 #include <sys/stat.h>
 
 #include "app/record.h"
+#include "files/listing.h"
 
 enum { DEPTH_MAX = 64, INPUTS_MAX = 10000000, PART_MAX = 120, PART_KEPT = 100 };
 
@@ -51,46 +51,24 @@ static bool has_ending(const char *name, const char *ending) {
 
 static bool is_motion_name(const char *name) { return has_ending(name, ".bvh") || has_ending(name, ".amc"); }
 
-static char *join(const char *folder, const char *name, Arena *arena, Error *e) {
-    size_t n = strlen(folder), k = strlen(name);
-    char *path = ARENA_NEW(arena, char, n + k + 2, e);
-    if (path) snprintf(path, n + k + 2, "%s%s%s", folder, n && folder[n - 1] == '/' ? "" : "/", name);
-    return path;
-}
-
-static int by_bytes(const void *a, const void *b) { return strcmp(*(const char *const *)a, *(const char *const *)b); }
-
-/* The names in a folder, sorted, hidden ones left out; NULL where it cannot be read. */
-static const char **list_folder(const char *path, int *count, Arena *arena, Error *e) {
-    DIR *folder = opendir(path);
-    if (!folder) return NULL;
-    TextList list = {0};
-    bool good = true;
-    for (struct dirent *entry; good && (entry = readdir(folder));) {
-        if (entry->d_name[0] == '.') continue;
-        const char *name = arena_text(arena, entry->d_name, strlen(entry->d_name), e);
-        good = name && settings_append(&list, name, arena, e);
-    }
-    closedir(folder);
-    *count = list.count;
-    if (list.count) qsort(list.item, (size_t)list.count, sizeof *list.item, by_bytes);
-    static const char *nothing[1];
-    return !good ? NULL : list.count ? list.item : nothing;
-}
-
-/* Links to files are followed, links to folders are not: they could lead round in a circle. */
+/* Links to files are followed, links to folders are not: they could lead round in a circle. A folder that cannot be
+   read stays in the list. */
 static bool search_folder(Search *s, const char *path, size_t root, int depth) {
-    int n = 0;
+    Listing names;
+    Error why = {0};
     if (depth > DEPTH_MAX) return add(s, path, path + root, false);
-    const char **names = list_folder(path, &n, s->arena, s->e);
-    if (!names) return !s->e->kind && add(s, path, path + root, false);
-    for (int i = 0; i < n; i++) {
+    if (!listing_read(path, s->arena, &names, &why)) {
+        if (why.kind == ERR_INPUT) return add(s, path, path + root, false);
+        *s->e = why;
+        return false;
+    }
+    for (int i = 0; i < names.count; i++) {
         struct stat info;
-        const char *inside = join(path, names[i], s->arena, s->e);
+        const char *inside = listing_path(path, names.name[i], s->arena, s->e);
         if (!inside) return false;
         bool good = true, is_folder = lstat(inside, &info) == 0 && S_ISDIR(info.st_mode);
         if (is_folder) good = search_folder(s, inside, root, depth + 1);
-        else if (is_motion_name(names[i])) good = add(s, inside, inside + root, false);
+        else if (is_motion_name(names.name[i])) good = add(s, inside, inside + root, false);
         if (!good) return false;
     }
     return true;

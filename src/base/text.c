@@ -155,8 +155,7 @@ bool text_real(const Line *line, int i, double *out, Error *e) {
     const char *s = line->word[i], *end = s + line->length[i];
     const char *stop = text_number(s, end, out);
     if (stop != end)
-        return text_error(line, i, e, "expected a number, found '%.*s'", line->length[i] > 40 ? 40 : line->length[i],
-                          s);
+        return text_error(line, i, e, "expected a number, found '%.*s'", error_shown(line->length[i]), s);
     *out += 0.0; /* -0 is 0 */
     return (*out >= -1e12 && *out <= 1e12) || text_error(line, i, e, "number out of range");
 }

@@ -38,7 +38,7 @@ static const BodyPartSpec *find_part(const BodySpec *body, Role role) {
 static bool no_more_words(const Line *line, int count, Error *e) {
     if (line->count <= count) return true;
     return text_error(line, count, e, "unexpected '%.*s' at the end of the line",
-                      line->length[count] > 40 ? 40 : line->length[count], line->word[count]);
+                      error_shown(line->length[count]), line->word[count]);
 }
 
 /* The role that a `part` or `mirror` line names; each body part is given once. */
@@ -138,7 +138,7 @@ bool body_parse(const Text *text, BodySpec *out, Error *e) {
             if (!read_mirror(&line, out, e)) return false;
         } else {
             return text_error(&line, 0, e, "expected 'part', 'section', 'caps' or 'mirror', found '%.*s'",
-                              line.length[0] > 40 ? 40 : line.length[0], line.word[0]);
+                              error_shown(line.length[0]), line.word[0]);
         }
     }
     if (e->kind != ERR_NONE || !end_part(open, &line, e)) return false;

@@ -85,10 +85,9 @@ static bool take_number(Cursor *c, double *out, Error *e) {
     if (!find_word(c))
         return error_at(e, ERR_INPUT, text_place(c, c->at), "expected a number, found the end of the line");
     const char *end = word_end(c->at);
-    if (text_number(c->at, end, out) != end || !isfinite(*out)) {
-        int shown = end - c->at < 40 ? (int)(end - c->at) : 40;
-        return error_at(e, ERR_INPUT, text_place(c, c->at), "expected a number, found '%.*s'", shown, c->at);
-    }
+    if (text_number(c->at, end, out) != end || !isfinite(*out))
+        return error_at(e, ERR_INPUT, text_place(c, c->at), "expected a number, found '%.*s'", error_shown(end - c->at),
+                        c->at);
     c->at = end;
     return true;
 }

@@ -67,7 +67,7 @@ static bool split_word(const Line *line, int i, const char *expected, char name[
     const char *word = line->word[i], *dot = i < line->count ? memchr(word, '.', (size_t)line->length[i]) : NULL;
     if (!dot || dot == word || dot + 1 == word + line->length[i]) {
         int n = i < line->count ? line->length[i] : 0;
-        return text_error(line, i, e, "expected %s, found '%.*s'", expected, n > 40 ? 40 : n, n ? word : "");
+        return text_error(line, i, e, "expected %s, found '%.*s'", expected, error_shown(n), n ? word : "");
     }
     Line whole = *line;
     whole.length[i] = (int)(dot - word);

@@ -35,7 +35,7 @@ static bool reaches_end(const Stream *s, Word w) { return s->last && w.start + w
 static FrameResult read_bone(Stream *s, const MotionSource *source, int frame, double *row, Error *e) {
     const Acclaim *a = source->acclaim;
     Word w = peek(s);
-    int index = asf_bone(a, w), n = w.length < 40 ? w.length : 40;
+    int index = asf_bone(a, w), n = error_shown(w.length);
     if (index < 0) {
         if (reaches_end(s, w)) return FRAME_CUT;
         stream_error(s, e, "frame %d: the skeleton '%.120s' has no bone '%.*s'", frame, a->asf, n, w.start);
@@ -90,7 +90,7 @@ static FrameResult read_frame(Stream *s, const MotionSource *source, int *number
     Word w = peek(s);
     if (w.length == 0) return FRAME_NONE;
     if (!is_frame_number(w)) {
-        stream_error(s, e, "expected the number of a frame, found '%.*s'", w.length < 40 ? w.length : 40, w.start);
+        stream_error(s, e, "expected the number of a frame, found '%.*s'", error_shown(w.length), w.start);
         return FRAME_WRONG;
     }
     *number = 0;
@@ -108,7 +108,7 @@ static FrameResult read_frame(Stream *s, const MotionSource *source, int *number
 
 /* Any text with a '#' in front comes here: before a skeleton is asked for, it must look like a motion. */
 static bool no_motion(Stream *s, Word w, Error *e) {
-    int n = w.length < 40 ? w.length : 40;
+    int n = error_shown(w.length);
     return stream_error(s, e, "neither BVH nor Acclaim AMC: found '%.*s'", n, w.start);
 }
 

@@ -36,7 +36,7 @@ typedef struct {
 
 static bool refuse_word(Asf *a, Word w, const char *wanted, Error *e) {
     if (!w.length) return stream_error(&a->in, e, "the file ends where %s is expected", wanted);
-    return stream_error(&a->in, e, "expected %s, found '%.*s'", wanted, w.length < 40 ? w.length : 40, w.start);
+    return stream_error(&a->in, e, "expected %s, found '%.*s'", wanted, error_shown(w.length), w.start);
 }
 
 static bool read_vector(Asf *a, const char *what, Vec3 *out, Error *e) {
@@ -289,11 +289,8 @@ static void set_axis(const Asf *a, const Part *p, Joint *j) {
 }
 
 static bool add_end(Asf *a, const Part *p, Joint *out, Error *e) {
-    size_t n = strlen(p->bone.name);
-    char *name = ARENA_NEW(a->o->arena, char, n + sizeof "_End", e);
+    const char *name = source_end_name(a->o, p->bone.name, e);
     if (!name) return false;
-    memcpy(name, p->bone.name, n);
-    memcpy(name + n, "_End", sizeof "_End");
     *out = (Joint){.name = name, .parent = p->joint, .axis = mat_identity(), .is_end = true};
     out->offset = vec_scale(p->direction, p->length);
     return true;

@@ -100,13 +100,8 @@ static bool read_end(Head *h, Error *e) {
     Stream *s = &h->o->in;
     if (h->open < 0) return stream_error(s, e, "End Site outside of a ROOT");
     rest_of_line(s);
-    const char *parent = joint_name(h, h->open);
-    size_t n = strlen(parent);
-    char *name = ARENA_NEW(h->o->arena, char, n + sizeof "_End", e);
-    if (!name) return false;
-    memcpy(name, parent, n);
-    memcpy(name + n, "_End", sizeof "_End");
-    return add_joint(h, name, true, e);
+    const char *name = source_end_name(h->o, joint_name(h, h->open), e);
+    return name && add_joint(h, name, true, e);
 }
 
 static bool read_offset(Head *h, Error *e) {
@@ -144,7 +139,7 @@ static bool read_channels(Head *h, Error *e) {
         while (kind < 6 && !word_is(w, channel_names[kind])) kind++;
         if (kind == 6)
             return stream_error(s, e, "expected Xposition .. Zposition or Xrotation .. Zrotation, found '%.*s'",
-                                w.length < 40 ? w.length : 40, w.start);
+                                error_shown(w.length), w.start);
         j->channel[j->nchannels] = (ChannelKind)kind;
         s->at += w.length;
     }
@@ -187,7 +182,7 @@ static bool read_item(Head *h, Error *e) {
     Word w = stream_peek(s);
     if (w.length == 0) return stream_sound(s, e) && stream_error(s, e, "the file ends before MOTION");
     if (*w.start == '{') return open_brace(h, e);
-    if (h->await_brace) return stream_error(s, e, "expected '{', found '%.*s'", w.length < 40 ? w.length : 40, w.start);
+    if (h->await_brace) return stream_error(s, e, "expected '{', found '%.*s'", error_shown(w.length), w.start);
     if (*w.start == '}') return close_brace(h, e);
     for (size_t i = 0; i < sizeof items / sizeof *items; i++) {
         if (!word_is(w, items[i].word)) continue;
@@ -199,7 +194,7 @@ static bool read_item(Head *h, Error *e) {
         return items[i].read(h, e);
     }
     return stream_error(s, e, "expected JOINT, End Site, OFFSET, CHANNELS, MOTION or a brace, found '%.*s'",
-                        w.length < 40 ? w.length : 40, w.start);
+                        error_shown(w.length), w.start);
 }
 
 static bool read_head(Opening *o, Error *e) {

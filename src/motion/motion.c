@@ -103,6 +103,13 @@ static bool note_twins(Opening *o, Error *e) {
     return true;
 }
 
+const char *source_end_name(Opening *o, const char *parent, Error *e) {
+    size_t n = strlen(parent) + sizeof "_End";
+    char *name = ARENA_NEW(o->arena, char, n, e);
+    if (name) snprintf(name, n, "%s_End", parent);
+    return name;
+}
+
 bool source_skeleton(Opening *o, const Joint *joint, int njoints, Error *e) {
     Skeleton *s = &o->motion->skeleton;
     if (!(s->joint = ARENA_NEW(o->arena, Joint, njoints, e))) return false;
@@ -153,7 +160,7 @@ static bool read_format(Opening *o, Error *e) {
     Word w = stream_peek(s);
     if (word_is(w, "HIERARCHY")) return bvh_open(o, e);
     if (*w.start == '#' || *w.start == ':' || (*w.start >= '0' && *w.start <= '9')) return acclaim_open(o, e);
-    int n = w.length < 40 ? w.length : 40;
+    int n = error_shown(w.length);
     return stream_error(s, e, "neither BVH nor Acclaim AMC: starts with '%.*s'", n, w.start);
 }
 

@@ -213,7 +213,7 @@ NumberResult stream_number(Stream *s, double *out) {
 
 bool stream_refuse(Stream *s, NumberResult r, const char *what, Error *e) {
     Word w = stream_peek(s);
-    int n = w.length < 40 ? w.length : 40;
+    int n = error_shown(w.length);
     if (!stream_sound(s, e)) return false;
     switch (r) {
     case NUMBER_END: return stream_error(s, e, "the file ends before %s", what);
