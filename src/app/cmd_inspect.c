@@ -6,22 +6,9 @@
 
 #include "app/commands.h"
 #include "app/take.h"
+#include "files/csv.h"
 
 enum { MODEL_FILE_MAX = 1 << 20 };
-
-/* Names with commas or quotes are quoted as CSV asks for. */
-static void print_field(const char *text) {
-    if (!text[strcspn(text, ",\"\r\n")]) {
-        fputs(text, stdout);
-        return;
-    }
-    putchar('"');
-    for (; *text; text++) {
-        if (*text == '"') putchar('"');
-        putchar(*text);
-    }
-    putchar('"');
-}
 
 /* Nine digits give every position to a billionth of the largest one. */
 static bool print_joints(const Motion *m, const FrameSpan *span, Arena *arena, Error *e) {
@@ -39,7 +26,7 @@ static bool print_joints(const Motion *m, const FrameSpan *span, Arena *arena, E
         skeleton_pose(s, row, world);
         for (int j = 0; j < s->njoints; j++) {
             printf("%ld,", f);
-            print_field(s->joint[j].name);
+            csv_text(s->joint[j].name, stdout);
             printf(",%.9g,%.9g,%.9g\n", world[j].t.x, world[j].t.y, world[j].t.z);
         }
     }

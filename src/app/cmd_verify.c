@@ -10,6 +10,7 @@
 #include "dress/cover.h"
 #include "dress/sway.h"
 #include "dress/verify.h"
+#include "files/csv.h"
 #include "files/drc.h"
 #include "files/obj.h"
 
@@ -111,15 +112,8 @@ static bool find_parts(Run *r, const char *path, bool **wanted, Error *e) {
 
 /* --- output --- */
 
-/* Names with commas or quotes are quoted as CSV asks for. */
 static void print_text(const char *text) {
-    bool plain = !text[strcspn(text, ",\"\r\n")];
-    if (!plain) putchar('"');
-    for (; *text; text++) {
-        if (*text == '"') putchar('"');
-        putchar(*text);
-    }
-    if (!plain) putchar('"');
+    csv_text(text, stdout);
     putchar(',');
 }
 

@@ -5,7 +5,8 @@
 
 #include <assert.h>
 #include <stddef.h>
-#include <string.h>
+
+#include "files/csv.h"
 
 typedef enum { KIND_INT, KIND_LONG, KIND_FLAG, KIND_REAL, KIND_SECONDS, KIND_TEXT, KIND_SPLIT, KIND_METHOD } Kind;
 
@@ -121,21 +122,6 @@ void summary_add(SummaryRow *sum, const StatsRow *row) {
     sum->pairs_tested += s->pairs_tested;
 }
 
-/* A comma, a quote or a blank at the ends needs quotes; control bytes become '?', so that a
-   row stays a line. */
-static void put_text(const char *text, FILE *out) {
-    if (!text) return;
-    size_t n = strlen(text);
-    bool quoted = strpbrk(text, ",\"") || (n > 0 && (text[0] == ' ' || text[0] == '#' || text[n - 1] == ' '));
-    if (quoted) fputc('"', out);
-    for (; *text; text++) {
-        unsigned char c = (unsigned char)*text;
-        if (c == '"') fputc('"', out);
-        fputc(c < 32 || c == 127 ? '?' : c, out);
-    }
-    if (quoted) fputc('"', out);
-}
-
 /* Numbers that are none print alike on every system. */
 static void put_real(double x, FILE *out) {
     if (x != x) fputs("nan", out);
@@ -153,7 +139,7 @@ static void put_cell(const Column *c, const void *row, FILE *out) {
     case KIND_FLAG: fputc(*(const bool *)at ? '1' : '0', out); break;
     case KIND_REAL:
     case KIND_SECONDS: put_real(*(const double *)at, out); break;
-    case KIND_TEXT: put_text(*(const char *const *)at, out); break;
+    case KIND_TEXT: csv_text(*(const char *const *)at, out); break;
     case KIND_SPLIT: fputs(rules[*(const SplitRule *)at], out); break;
     case KIND_METHOD: fputs(methods[*(const Method *)at], out); break;
     }
