@@ -38,9 +38,24 @@ void body_frame_pose(BodyFrame *f, const Pose *pose);
    See body_distance for `far`. */
 double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal);
 
-/* The same from a part as it is where nothing presses on it: never more than that, and cheaper. For one point and
-   for n; normal may be NULL. */
-double body_frame_unpressed(const BodyFrame *f, int part, Vec3 p, double far);
+/* A world point that several parts are asked about, or one more than once, as happens where they press on each other:
+   what a part says of it without the others is found once. */
+typedef struct {
+    Vec3 at;
+    unsigned known;                /* parts (bits 1 << part) that have been asked; private */
+    BodyLook look[BODY_PARTS_MAX];
+} BodyPoint;
+static inline void body_point_move(BodyPoint *p, Vec3 to) {
+    p->at = to;
+    p->known = 0;
+}
+
+/* body_frame_distance of it, */
+double body_point_distance(const BodyFrame *f, int part, BodyPoint *p, double far, Vec3 *normal);
+
+/* and from a part as it is where nothing presses on it: never more than that, and cheaper. For many points too;
+   normal may be NULL. */
+double body_point_unpressed(const BodyFrame *f, int part, BodyPoint *p, double far);
 void body_frame_unpressed_many(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance,
                                Vec3 *normal);
 

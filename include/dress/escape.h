@@ -15,11 +15,19 @@ typedef struct {
 /* A point of the cloth that is to keep its distance from the parts. */
 typedef struct {
     int place;
-    Vec3 at;               /* where it is now; world, metres */
+    BodyPoint point;       /* where it is now */
     unsigned near;         /* parts (bits 1 << part) that leave it room or not */
     double clearance;      /* the distance, metres, */
     double slack;          /* of which this share may be missing */
 } EscapePoint;
+
+static inline void escape_at(EscapePoint *p, int place, Vec3 at, double clearance) {
+    p->place = place;
+    p->near = 0;
+    p->clearance = clearance;
+    p->slack = 0;
+    body_point_move(&p->point, at);
+}
 
 MUST_CHECK bool escape_reserve(Escape *s, const Lattice *lattice, Arena *arena, Error *e);
 
@@ -28,10 +36,10 @@ void escape_bind(Escape *s, const Patch *root);
 
 /* How far p, `distance` away from a part, must go along *n, the part's outward unit normal there, to be `wanted`
    away from it; metres. Turns *n where it leads to the wrong side. */
-double escape_way(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, double wanted,
+double escape_way(const Escape *s, const BodyFrame *body, EscapePoint *p, int part, double wanted,
                   double distance, Vec3 *n);
 
 /* The same for its clearance, or as far as there is room. 0: it may stay. */
-double escape_asked(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, double distance, Vec3 *n);
+double escape_asked(const Escape *s, const BodyFrame *body, EscapePoint *p, int part, double distance, Vec3 *n);
 
 #endif

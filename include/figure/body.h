@@ -103,7 +103,17 @@ void body_pose(const Body *b, const Pose *pose, Vec3 *positions, Vec3 *normals);
    return any value >= far that is not larger than the true distance, without a normal. */
 double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal);
 
-/* The same for n points that *to_part takes to the part frame, `far` where that is less: to the bit, with any
+/* What a part says of a point of its frame, for one that is asked more than once: what it takes to answer is found
+   when it is first needed. Start with {.p = p}; the answers of body_look are those of body_distance. */
+typedef struct {
+    Vec3 p;
+    int looks;                  /* 0, 1 or 2; private, as is the rest */
+    double first, distance;
+    Vec3 normal;
+} BodyLook;
+double body_look(const BodyPart *part, BodyLook *at, double far, Vec3 *normal);
+
+/* body_distance for n points that *to_part takes to the part frame, `far` where that is less: to the bit, with any
    vectors. normal may be NULL; beyond `far` it is undefined. Points that stand together are the cheapest. */
 void body_distances(const BodyPart *part, Vectors vectors, const Rigid *to_part, const Vec3 *p, int n, double far,
                     double *out, Vec3 *normal);

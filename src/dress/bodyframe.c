@@ -30,15 +30,21 @@ static void find_box(BodyFrame *f, int part) {
     f->box[part] = (Box){vec_sub(b.low, room), vec_add(b.high, room)};
 }
 
-static double distance_in_box(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal) {
-    double d = body_distance(&f->body->part[part], rigid_apply(f->to_part[part], p), far, normal);
+static double distance_in_box(const BodyFrame *f, int part, BodyPoint *p, double far, Vec3 *normal) {
+    BodyLook *look = &p->look[part];
+    if (!(p->known >> part & 1)) {
+        look->p = rigid_apply(f->to_part[part], p->at);
+        look->looks = 0;
+        p->known |= 1u << part;
+    }
+    double d = body_look(&f->body->part[part], look, far, normal);
     if (normal && d < far) *normal = mat_apply(f->to_world[part], *normal);
     return d;
 }
 
 /* Distance from a part as it is without others. Most questions end at the box, so that much is inline. */
-static inline double own_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal) {
-    return body_frame_far(f, part, p, far) ? far : distance_in_box(f, part, p, far, normal);
+static inline double own_distance(const BodyFrame *f, int part, BodyPoint *p, double far, Vec3 *normal) {
+    return body_frame_far(f, part, p->at, far) ? far : distance_in_box(f, part, p, far, normal);
 }
 
 /* How far a part gives way at a point, and its normal there. */
@@ -56,19 +62,19 @@ static void press(const BodyFrame *f, const Contact *contact, Vec3 p, double dis
 }
 
 /* Farther away than the room that parts leave to each other the other is never asked. */
-static Way give_way(const BodyFrame *f, int part, Vec3 p, double distance, Vec3 normal) {
+static Way give_way(const BodyFrame *f, int part, BodyPoint *p, double distance, Vec3 normal) {
     const Contacts *contacts = &f->contacts[part];
     double far = f->room - distance;
     Way way = {0, normal};
     for (int k = 0; k < contacts->n; k++) {
         Vec3 away;
         double other = own_distance(f, contacts->contact[k].other, p, far, &away);
-        if (other < far) press(f, &contacts->contact[k], p, distance, normal, other, away, &way);
+        if (other < far) press(f, &contacts->contact[k], p->at, distance, normal, other, away, &way);
     }
     return way;
 }
 
-double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal) {
+double body_point_distance(const BodyFrame *f, int part, BodyPoint *p, double far, Vec3 *normal) {
     if (f->contacts[part].n == 0) return own_distance(f, part, p, far, normal);
     Vec3 n;
     double d = own_distance(f, part, p, far, &n);
@@ -78,8 +84,15 @@ double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec
     return d + way.by;
 }
 
-double body_frame_unpressed(const BodyFrame *f, int part, Vec3 p, double far) {
+double body_point_unpressed(const BodyFrame *f, int part, BodyPoint *p, double far) {
     return own_distance(f, part, p, far, NULL);
+}
+
+double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal) {
+    if (body_frame_far(f, part, p, far)) return far;
+    BodyPoint point;
+    body_point_move(&point, p);
+    return body_point_distance(f, part, &point, far, normal);
 }
 
 void body_frame_unpressed_many(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance,

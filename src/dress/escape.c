@@ -30,14 +30,14 @@ static bool is_own(const Escape *s, const BodyFrame *body, const EscapePoint *p,
 /* The distance to ask for from a part with outward normal n at p, `distance` away from it: the clearance, but where
    another part stands opposite no more than half the room between the two. Where there is none, a part that comes
    from outside asks for nothing. */
-static double room_for(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, double distance,
+static double room_for(const Escape *s, const BodyFrame *body, EscapePoint *p, int part, double distance,
                        Vec3 n) {
     double far = 2 * p->clearance - distance;
     int opposite = -1;
     for (int other = 0; p->near >> other; other++) {
         Vec3 m;
         if (other == part || !(p->near >> other & 1)) continue;
-        double d = body_frame_distance(body, other, p->at, far, &m);
+        double d = body_point_distance(body, other, &p->point, far, &m);
         if (d >= far || vec_dot(n, m) >= OPPOSITE) continue;
         far = d;
         opposite = other;
@@ -71,7 +71,7 @@ static bool side_of(const Escape *s, const BodyFrame *body, const EscapePoint *p
     if (!has_side(b->role)) return false;
     Vec3 q = rigid_unapply(b->frame, s->rest[p->place]);
     if (q.y < 0 || q.y > b->length)
-        return !s->lattice->fit->garment->loose && side_in_fold(body, part, p->at, q.y < 0, side);
+        return !s->lattice->fit->garment->loose && side_in_fold(body, part, p->point.at, q.y < 0, side);
     Section c = body_section_at(b, q.y, NULL);
     *side = mat_apply(body->to_world[part], vec_unit_or(vec(q.x - c.x, 0, q.z - c.z), vec(1, 0, 0)));
     return true;
@@ -101,19 +101,19 @@ static bool turn_inside(const Escape *s, const BodyFrame *body, const EscapePoin
 }
 
 /* Along a turned normal the distance does not grow as fast as the way: it is found in steps. */
-double escape_way(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, double wanted,
+double escape_way(const Escape *s, const BodyFrame *body, EscapePoint *p, int part, double wanted,
                   double distance, Vec3 *n) {
     double way = wanted - distance;
     if (!turn_inside(s, body, p, part, n)) return way;
     for (int k = 0; k < STEPS_OUT; k++) {
-        double d = body_frame_distance(body, part, vec_mad(p->at, *n, way), wanted, NULL);
+        double d = body_frame_distance(body, part, vec_mad(p->point.at, *n, way), wanted, NULL);
         if (d >= wanted - CLOSE_ENOUGH * wanted) break;
         way += wanted - d;
     }
     return way;
 }
 
-double escape_asked(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, double distance, Vec3 *n) {
+double escape_asked(const Escape *s, const BodyFrame *body, EscapePoint *p, int part, double distance, Vec3 *n) {
     double least = p->slack * p->clearance; /* less than that is no violation */
     if (p->clearance - distance <= least) return 0;
     double wanted = room_for(s, body, p, part, distance, *n);

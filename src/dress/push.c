@@ -199,19 +199,18 @@ static bool needs_asking(Push *p, const Sheet *sheet, PushSample *s, double enou
    of the worst violation that was acted on. */
 static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, PushSample *s, PushResult *result) {
     if (s->budget >= 0 && is_pinched(p, s)) return 0; /* it has had its say */
-    EscapePoint at = {.place = sheet->place[s->vertex],
-                      .near = s->near.parts,
-                      .clearance = p->clearance[s->vertex],
-                      .slack = p->slack};
-    double enough = (1 - p->slack) * at.clearance, far = at.clearance + REACH * p->field.scale, most = 0;
-    double weight[LATTICE_LEVELS][4];
+    double clearance = p->clearance[s->vertex], enough = (1 - p->slack) * clearance, most = 0;
+    double far = clearance + REACH * p->field.scale, weight[LATTICE_LEVELS][4];
     if (!needs_asking(p, sheet, s, enough, weight)) return 0;
+    EscapePoint at;
+    escape_at(&at, sheet->place[s->vertex], s->near.seen, clearance);
+    at.near = s->near.parts;
+    at.slack = p->slack;
     for (int part = 0; s->near.parts >> part; part++) {
         if (!(s->near.parts >> part & 1)) continue;
         if (near_slack(s->near.distance[part], enough) > 0 && !(s->asked >> part & 1)) continue;
         Vec3 n;
-        at.at = s->near.seen;
-        double distance = body_frame_distance(body, part, at.at, far, &n);
+        double distance = body_point_distance(body, part, &at.point, far, &n);
         double depth = escape_asked(&p->escape, body, &at, part, distance, &n);
         s->near.distance[part] = (float)distance;
         if (body->contacts[part].n > 0) s->asked |= 1u << part;
@@ -221,6 +220,7 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
         s->net = vec_mad(s->net, n, depth);
         project(p, s, weight, n, depth, result);
         near_move(&s->near, sample_point(p, sheet, s, weight));
+        body_point_move(&at.point, s->near.seen);
         most = fmax(most, depth);
     }
     near_sum(&s->near, far);

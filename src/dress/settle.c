@@ -15,12 +15,12 @@ bool settle_reserve(Settler *s, const Lattice *lattice, Arena *arena, Error *e) 
 
 void settle_start(Settler *s) { s->nraised = s->nmarked = 0; }
 
-/* Parts that lie within `far` of x: bits 1 << part. Also arms that touch a skirt, which dent it by single vertices:
+/* Parts that lie within `far` of p: bits 1 << part. Also arms that touch a skirt, which dent it by single vertices:
    coarse displacements for them and for the legs would fight. */
-static unsigned parts_near(const BodyFrame *body, Vec3 x, double far) {
+static unsigned parts_near(const BodyFrame *body, BodyPoint *p, double far) {
     unsigned near = 0;
     for (int k = 0; k < body->body->nparts; k++)
-        if (body_frame_unpressed(body, k, x, far) < far) near |= 1u << k;
+        if (body_point_unpressed(body, k, p, far) < far) near |= 1u << k;
     return near;
 }
 
@@ -34,9 +34,9 @@ static void add_offset(Push *p, const Sheet *sheet, int vertex, Vec3 by, bool *c
 
 /* The step that takes a vertex at `at` out of a part; false where there is none to take. From a part that comes from
    outside, where the way into the garment is too far, it is the nearest one. */
-static bool step_out(const Push *p, const BodyFrame *body, const EscapePoint *at, int part, Vec3 *step) {
+static bool step_out(const Push *p, const BodyFrame *body, EscapePoint *at, int part, Vec3 *step) {
     Vec3 n, plain;
-    double distance = body_frame_distance(body, part, at->at, at->clearance, &plain);
+    double distance = body_point_distance(body, part, &at->point, at->clearance, &plain);
     double most = OFFSET_MAX * p->field.scale;
     n = plain;
     double way = escape_asked(&p->escape, body, at, part, distance, &n);
@@ -51,10 +51,11 @@ static bool step_out(const Push *p, const BodyFrame *body, const EscapePoint *at
 }
 
 static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, bool *capped) {
-    EscapePoint at = {.place = sheet->place[vertex], .at = p->point[vertex], .clearance = p->clearance[vertex]};
     const Near *seen = &p->near[vertex];
-    if (near_slack(seen->least, at.clearance) > vec_dist(at.at, seen->seen)) return;
-    at.near = parts_near(body, at.at, at.clearance);
+    if (near_slack(seen->least, p->clearance[vertex]) > vec_dist(p->point[vertex], seen->seen)) return;
+    EscapePoint at;
+    escape_at(&at, sheet->place[vertex], p->point[vertex], p->clearance[vertex]);
+    at.near = parts_near(body, &at.point, at.clearance);
     bool moved = true;
     for (int step = 0; step < STEPS_MAX && moved; step++) {
         moved = false;
@@ -62,7 +63,7 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
             Vec3 by;
             if (!(at.near >> part & 1) || !step_out(p, body, &at, part, &by)) continue;
             add_offset(p, sheet, vertex, by, capped);
-            at.at = p->point[vertex];
+            body_point_move(&at.point, p->point[vertex]);
             moved = true;
         }
     }
@@ -87,21 +88,21 @@ bool settle_raise(Settler *s, Push *p, int vertex, double by, double most) {
 }
 
 void settle_hit(Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit) {
-    EscapePoint at = {.clearance = PUSH_MARGIN * p->field.scale};
-    double norm2 = 0;
+    EscapePoint at;
+    double norm2 = 0, clearance = PUSH_MARGIN * p->field.scale;
     int nearest = 0;
     bool capped = false;
-    Vec3 n;
+    Vec3 x = {0, 0, 0}, n;
     for (int c = 0; c < hit->n; c++) {
         if (!is_raised(p, hit->v[c])) return;
-        at.at = vec_mad(at.at, p->point[hit->v[c]], hit->weight[c]);
+        x = vec_mad(x, p->point[hit->v[c]], hit->weight[c]);
         norm2 += hit->weight[c] * hit->weight[c];
         if (hit->weight[c] > hit->weight[nearest]) nearest = c;
     }
-    at.place = sheet->place[hit->v[nearest]];
-    double distance = body_frame_distance(body, hit->part, at.at, at.clearance, &n);
-    if (distance >= at.clearance) return; /* another hit has moved it */
-    double way = escape_way(&p->escape, body, &at, hit->part, at.clearance, distance, &n);
+    double distance = body_frame_distance(body, hit->part, x, clearance, &n);
+    if (distance >= clearance) return; /* another hit has moved it */
+    escape_at(&at, sheet->place[hit->v[nearest]], x, clearance);
+    double way = escape_way(&p->escape, body, &at, hit->part, clearance, distance, &n);
     if (way > OFFSET_MAX * p->field.scale) return; /* out of reach */
     for (int c = 0; c < hit->n; c++)
         add_offset(p, sheet, hit->v[c], vec_scale(n, way * hit->weight[c] / norm2), &capped);

@@ -158,25 +158,40 @@ static double before_plane(const BodyPart *part, Vec3 at, Vec3 p, Vec3 *normal) 
 /* Where the surface leans (caps, calf, seat) the nearest point is not at the same height: a
    second plane is taken under the first one's foot. For a convex part both planes bound the
    distance from below. */
-double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal) {
-    double beyond = fmax(p.y - part->high, part->low - p.y);
+static void look_again(const BodyPart *part, BodyLook *at) {
+    Vec3 other;
+    at->distance = at->first;
+    at->looks = 2;
+    if (fabs(at->normal.y) <= BODY_LEANING) return;
+    double better = before_plane(part, vec_mad(at->p, at->normal, -at->first), at->p, &other);
+    if ((better > 0) != (at->first > 0)) return;
+    at->distance = better;
+    at->normal = other;
+}
+
+double body_look(const BodyPart *part, BodyLook *at, double far, Vec3 *normal) {
+    Vec3 p = at->p;
+    double over = p.y - part->high, under = part->low - p.y, beyond = over > under ? over : under;
     if (beyond >= far) return beyond;
     double away = p.x * p.x + p.z * p.z, limit = part->reach + far;
     if (away >= limit * limit) return fmax(far, sqrt(away) - part->reach);
 
-    Vec3 n, n2;
-    double distance = before_plane(part, p, p, &n);
-    if (distance >= far) return far;
-    if (fabs(n.y) > BODY_LEANING) {
-        double better = before_plane(part, vec_mad(p, n, -distance), p, &n2);
-        if ((better > 0) == (distance > 0)) {
-            distance = better;
-            n = n2;
-        }
+    if (at->looks == 0) {
+        at->first = before_plane(part, p, p, &at->normal);
+        at->looks = 1;
     }
-    if (distance >= far) return far;
-    if (normal) *normal = n;
-    return distance;
+    if (at->first >= far) return far;
+    if (at->looks == 1) look_again(part, at);
+    if (at->distance >= far) return far;
+    if (normal) *normal = at->normal;
+    return at->distance;
+}
+
+double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal) {
+    BodyLook at;
+    at.p = p;
+    at.looks = 0;
+    return body_look(part, &at, far, normal);
 }
 
 void body_pose(const Body *b, const Pose *pose, Vec3 *positions, Vec3 *normals) {
