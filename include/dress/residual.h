@@ -63,8 +63,8 @@ void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *ow
 void tester_move(Tester *t, const BodyFrame *body, unsigned parts, const int *vertex, const Vec3 *to, int n,
                  Residual *own, Residual *other, CrossingCount *count);
 
-/* Counts the vertices inside any part, and appends them to t->bad. clear, if not NULL: per vertex whether it is known to
-   be outside of all. */
+/* Counts the vertices inside any part, and appends them to t->bad. clear, if not NULL: per vertex whether it is
+   known to be outside of all. */
 void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, const bool *clear,
                    Residual *own, Residual *other);
 

@@ -71,8 +71,8 @@ static void number_places(Lattice *l, int *corner) {
     }
 }
 
-/* A short sleeve ends above the elbow, but a bent arm brings the forearm to it, and a bent leg the foot to a skirt: cloth
-   that is worn over a bone of a limb has its side of the next one too. */
+/* A short sleeve ends above the elbow, but a bent arm brings the forearm to it, and a bent leg the foot to a skirt:
+   cloth that is worn over a bone of a limb has its side of the next one too. */
 static unsigned with_next_bones(unsigned collide) {
     unsigned next = 0;
     for (int r = 0; r + 1 < ROLE_COUNT; r++)
