@@ -17,7 +17,7 @@ typedef enum {
 typedef struct { int first, last, step; } FrameSpan;
 
 /* The k-th of n parts, from 1; 0: the whole. */
-typedef struct { int k, n; } Part;
+typedef struct { int k, n; } Shard;
 
 typedef struct { int count; const char **item; } TextList;
 
@@ -69,7 +69,7 @@ typedef struct {
     bool no_body, no_times, force;
 
     bool resume;
-    Part shard;
+    Shard shard;
     bool merge;                 /* inputs are folders with summaries */
     int max_joints, max_frames; /* 0: those of motion_open */
     int max_memory;             /* megabytes for each thread; 0 = no limit */
@@ -97,9 +97,9 @@ typedef enum {
     KIND_CHOICE, /* int: one of `choices` */
     KIND_SET,    /* unsigned: several of `choices`, separated by commas */
     KIND_STAIRS, /* Gait: RISE:RUN:COUNT */
-    KIND_PART,   /* Part: K/N */
+    KIND_SHARD,  /* Shard: K/N */
     KIND_SPAN,   /* FrameSpan: A, A:B or A:B:STEP */
-    KIND_UNIT    /* double: a name in `choices` stands for millimetres, or a number of metres */
+    KIND_UNIT    /* double: metres; the name of a unit, or a number of metres */
 } OptionKind;
 
 typedef struct { const char *name; int value; } Choice;

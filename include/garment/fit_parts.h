@@ -4,9 +4,6 @@
 
 #include "garment/fit.h"
 
-/* Indices of the four control points along a side, in the direction of growing u or w. */
-void fit_side_points(Side side, int out[4]);
-
 /* Numbers the control points' names 0..npoints-1 in order of first use, and counts the openings. */
 MUST_CHECK bool fit_number_points(Fit *f, Arena *arena, Error *e);
 

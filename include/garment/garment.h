@@ -52,6 +52,11 @@ typedef struct { char name[GARMENT_NAME_MAX]; Vec3 point[16]; Binding binding[16
 /* start / end: first / last point of every row (u = 0 / 1); top / bottom: first / last row (w = 0 / 1). */
 typedef enum { SIDE_START, SIDE_END, SIDE_TOP, SIDE_BOTTOM } Side;
 
+/* Index of control point k = 0..3 along a side, in the direction of growing u or w. */
+static inline int side_point(Side side, int k) {
+    return side == SIDE_START ? k : side == SIDE_END ? 12 + k : side == SIDE_TOP ? 4 * k : 4 * k + 3;
+}
+
 /* piece: panels first (0..npanels-1), then raw patches (npanels + k). */
 typedef struct { int piece_a; Side side_a; int piece_b; Side side_b; bool crease; } Seam;
 

@@ -30,6 +30,9 @@ typedef struct {
    row: nchannels values. world: njoints. */
 void skeleton_pose(const Skeleton *s, const double *row, Rigid *world);
 
+/* Is `joint` below `ancestor` or the same? */
+bool skeleton_below(const Skeleton *s, int joint, int ancestor);
+
 /* Index of the joint of that name (exact), or -1. */
 int skeleton_find(const Skeleton *s, const char *name);
 

@@ -33,7 +33,7 @@ static bool collect(const Settings *s, Arena *arena, Input **input, int *count, 
 
 /* Every n-th, so that neighbours, which are often alike, go to different machines. Names were given
    before: a motion's folder is the same in every shard. */
-static int take_shard(Part shard, Input *input, int count) {
+static int take_shard(Shard shard, Input *input, int count) {
     int kept = 0;
     if (!shard.n) return count;
     for (int i = shard.k - 1; i < count; i += shard.n) input[kept++] = input[i];

@@ -13,7 +13,7 @@ enum { SUMMARY_MAX = 1 << 30 };
 /* A summary: head, rows by motion, and which shard it is. */
 typedef struct {
     const char *path;
-    Part shard;            /* n 0: of no list */
+    Shard shard;           /* n 0: of no list */
     int total;             /* motions in the whole list */
     const char *head;
     size_t head_size;
@@ -95,7 +95,7 @@ static bool add(Merge *m, const char *folder, const char *name) {
 
 static bool is_shard_name(const char *name) {
     char again[64];
-    Part p = {0, 0};
+    Shard p = {0, 0};
     if (strlen(name) > 40 || sscanf(name, "summary.%d-of-%d.csv", &p.k, &p.n) != 2) return false;
     snprintf(again, sizeof again, "summary.%d-of-%d.csv", p.k, p.n);
     return strcmp(name, again) == 0;

@@ -191,7 +191,7 @@ const Option settings_table[] = {
      "threads", .fallback = "one for each processor", RANGE(1, 256), .manner = true},
     {"resume", 0, KIND_FLAG, FIELD(resume), NULL, "Run", COMMAND_DRESS,
      "leave out motions that are finished, made of the same inputs with the same options", .manner = true},
-    {"shard", 0, KIND_PART, FIELD(shard), "K/N", "Run", COMMAND_DRESS,
+    {"shard", 0, KIND_SHARD, FIELD(shard), "K/N", "Run", COMMAND_DRESS,
      "dress every N-th motion of the list, from the K-th on; writes summary.K-of-N.csv", .manner = true},
     {"merge", 0, KIND_FLAG, FIELD(merge), NULL, "Run", COMMAND_DRESS,
      "dress nothing: join the summaries in the named folders into one summary.csv", .manner = true},
@@ -401,14 +401,14 @@ static bool put_stairs(Gait *field, const Option *option, const char *text, Erro
 }
 
 /* K/N with 1 <= K <= N */
-static bool put_part(Part *field, const Option *option, const char *text, Error *e) {
+static bool put_shard(Shard *field, const Option *option, const char *text, Error *e) {
     enum { MOST = 100000 };
     const char *slash = strchr(text, '/'), *end = text + strlen(text);
     double k = 0, n = 0;
     bool good = slash && text_number(text, slash, &k) == slash && text_number(slash + 1, end, &n) == end;
     if (!good || !(k >= 1 && k <= n && n <= MOST) || k != (int)k || n != (int)n)
         return expected(option, "K/N with 1 <= K <= N", text, e);
-    *field = (Part){(int)k, (int)n};
+    *field = (Shard){(int)k, (int)n};
     return true;
 }
 
@@ -432,7 +432,7 @@ bool settings_put(Settings *s, const Option *option, const char *text, Arena *ar
     case KIND_LIST: return settings_append(field, text, arena, e);
     case KIND_CHOICE: return put_choice(field, option, text, e);
     case KIND_SET: return put_set(field, option, text, e);
-    case KIND_PART: return put_part(field, option, text, e);
+    case KIND_SHARD: return put_shard(field, option, text, e);
     case KIND_SPAN: return put_span(field, option, text, e);
     case KIND_STAIRS: return put_stairs(field, option, text, e);
     case KIND_UNIT: return put_unit(field, option, text, e);

@@ -62,7 +62,7 @@ static bool is_default(const Option *option, const void *field, const Settings *
     case KIND_REAL:
     case KIND_UNIT: return *(const double *)field == *(const double *)usual;
     case KIND_TEXT: return same_text(*(const char *const *)field, *(const char *const *)usual);
-    case KIND_PART: return ((const Part *)field)->n == 0;
+    case KIND_SHARD: return ((const Shard *)field)->n == 0;
     case KIND_SPAN: return !span->first && !span->last && !span->step;
     case KIND_STAIRS: return ((const Gait *)field)->stair_count == 0;
     case KIND_LIST: break;
@@ -85,7 +85,7 @@ bool settings_show(const Settings *s, const Option *option, int i, FILE *out) {
     case KIND_TEXT: fputs(*(const char *const *)field, out); break;
     case KIND_CHOICE: show_choice(option->choices, *(const int *)field, out); break;
     case KIND_SET: show_set(option->choices, *(const unsigned *)field, out); break;
-    case KIND_PART: fprintf(out, "%d/%d", ((const Part *)field)->k, ((const Part *)field)->n); break;
+    case KIND_SHARD: fprintf(out, "%d/%d", ((const Shard *)field)->k, ((const Shard *)field)->n); break;
     case KIND_SPAN: show_span(*(const FrameSpan *)field, out); break;
     case KIND_STAIRS: show_stairs(field, out); break;
     case KIND_LIST: break;

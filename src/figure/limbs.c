@@ -43,10 +43,7 @@ bool tree_build(const Skeleton *skeleton, const Sample *sample, Arena *arena, Tr
     return true;
 }
 
-bool tree_below(const Tree *t, int joint, int ancestor) {
-    while (joint > ancestor) joint = t->skeleton->joint[joint].parent;
-    return joint == ancestor;
-}
+bool tree_below(const Tree *t, int joint, int ancestor) { return skeleton_below(t->skeleton, joint, ancestor); }
 
 /* A way from a child of the hub downwards. */
 typedef struct {

@@ -177,9 +177,7 @@ static void find_fingertip(const Skeleton *skeleton, const Sample *s, Figure *f,
     if (wrist < 0) return;
     double farthest = 0, limit = sample_distance(s, elbow, wrist);
     for (int j = wrist + 1; j < skeleton->njoints; j++) {
-        int k = j;
-        while (k > wrist) k = skeleton->joint[k].parent;
-        if (k != wrist || sample_distance(s, wrist, j) > limit) continue;
+        if (!skeleton_below(skeleton, j, wrist) || sample_distance(s, wrist, j) > limit) continue;
         double sum = 0;
         for (int i = 0; i < s->count; i++) {
             Vec3 at = sample_point(s, i, wrist), forearm = vec_sub(at, sample_point(s, i, elbow));

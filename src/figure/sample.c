@@ -68,9 +68,7 @@ int sample_tip(const Sample *s, const Skeleton *skeleton, int joint, double limi
     int tip = -1;
     double farthest = 0;
     for (int j = joint + 1; s->count > 0 && j < skeleton->njoints; j++) {
-        int k = j;
-        while (k > joint) k = skeleton->joint[k].parent;
-        if (k != joint) continue;
+        if (!skeleton_below(skeleton, j, joint)) continue;
         double d = vec_dist(sample_point(s, 0, joint), sample_point(s, 0, j));
         if (d > farthest * (1 + 1e-9) && d <= limit) farthest = d, tip = j;
     }

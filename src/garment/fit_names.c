@@ -1,15 +1,8 @@
 /* What names tell once they are given: a side that no other side is named like is a border. */
 #include "garment/fit_parts.h"
 
-void fit_side_points(Side side, int out[4]) {
-    for (int k = 0; k < 4; k++)
-        out[k] = side == SIDE_START ? k : side == SIDE_END ? 12 + k : side == SIDE_TOP ? 4 * k : 4 * k + 3;
-}
-
 void fit_side(const FitPatch *patch, Side side, int out[4]) {
-    int index[4];
-    fit_side_points(side, index);
-    for (int k = 0; k < 4; k++) out[k] = patch->point[index[k]];
+    for (int k = 0; k < 4; k++) out[k] = patch->point[side_point(side, k)];
 }
 
 static bool is_border(const Fit *f, int patch, Side side) {

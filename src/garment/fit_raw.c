@@ -78,13 +78,11 @@ static bool sew(Fit *f, Error *e) {
         const Seam *s = &g->seam[k];
         int a = s->piece_a - g->npanels, b = s->piece_b - g->npanels;
         if (a < 0 || b < 0) continue; /* panels share by their stations */
-        int ia[4], ib[4];
-        fit_side_points(s->side_a, ia);
-        fit_side_points(s->side_b, ib);
         const Vec3 *pa = f->raw[a], *pb = f->raw[b];
-        bool reversed = vec_dist(pa[ia[0]], pb[ib[3]]) < vec_dist(pa[ia[0]], pb[ib[0]]);
+        Vec3 corner = pa[side_point(s->side_a, 0)];
+        bool reversed = vec_dist(corner, pb[side_point(s->side_b, 3)]) < vec_dist(corner, pb[side_point(s->side_b, 0)]);
         for (int i = 0; i < 4; i++) {
-            int x = ia[i], y = ib[reversed ? 3 - i : i];
+            int x = side_point(s->side_a, i), y = side_point(s->side_b, reversed ? 3 - i : i);
             if (vec_dist(pa[x], pb[y]) > 1e-5)
                 return error_set(e, ERR_INPUT, "garment '%s': the sides of seam %d do not meet", g->name, k + 1);
             rename_point(f, f->patch[first_raw + b].point[y], f->patch[first_raw + a].point[x]);

@@ -119,16 +119,6 @@ static bool panels_meet(const Garment *g, const Seam *s, Why *why) {
               station_name(a.station[i]), g->ring[b.ring[i]].name, station_name(b.station[i]));
 }
 
-/* Which control point of a raw patch stands at place i of a side. */
-static int side_point(Side side, int i) {
-    switch (side) {
-    case SIDE_START: return i;
-    case SIDE_END: return 12 + i;
-    case SIDE_TOP: return 4 * i;
-    default: return 4 * i + 3;
-    }
-}
-
 static double weight_of(const Binding *binding, Role bone) {
     for (int i = 0; i < binding->n; i++)
         if (binding->bone[i] == bone) return binding->weight[i];

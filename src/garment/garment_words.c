@@ -55,7 +55,8 @@ bool words_piece_named(const Garment *g, const char *name, const Line *line, int
 }
 
 bool words_station(const Line *line, int i, Station *out, Error *e) {
-    static const char *const words[] = {"left", "front", "right", "back"};
+    const char *words[STATION_COUNT];
+    for (int s = 0; s < STATION_COUNT; s++) words[s] = station_name((Station)s);
     int k = words_choose(line, i, "station", words, STATION_COUNT, e);
     *out = (Station)k;
     return k >= 0;
@@ -85,11 +86,12 @@ bool words_ring_station(const Garment *g, const Line *line, int i, int *ring, St
 }
 
 bool words_piece_side(const Garment *g, const Line *line, int i, int *piece, Side *side, Error *e) {
-    static const char *const words[] = {"start", "end", "top", "bottom"};
+    const char *words[4];
     char name[GARMENT_NAME_MAX];
     Line rest;
     if (!split_word(line, i, "PIECE.SIDE", name, &rest, e) || !words_piece_named(g, name, line, i, piece, e))
         return false;
+    for (int s = 0; s < 4; s++) words[s] = side_name((Side)s);
     int k = words_choose(&rest, i, "side", words, 4, e);
     *side = (Side)k;
     return k >= 0;

@@ -40,6 +40,11 @@ void skeleton_pose(const Skeleton *s, const double *row, Rigid *world) {
     }
 }
 
+bool skeleton_below(const Skeleton *s, int joint, int ancestor) {
+    while (joint > ancestor) joint = s->joint[joint].parent; /* parents stand before their children */
+    return joint == ancestor;
+}
+
 int skeleton_find(const Skeleton *s, const char *name) {
     for (int i = 0; i < s->njoints; i++)
         if (strcmp(s->joint[i].name, name) == 0) return i;
