@@ -43,7 +43,7 @@ static int samples(const Option *o, char text[8][64]) {
     case KIND_SPAN:
         strcpy(text[n++], "7"); strcpy(text[n++], "3::2"); strcpy(text[n++], ":9"); strcpy(text[n++], "1:2:3");
         break;
-    case KIND_PART: strcpy(text[n++], "3/8"); break;
+    case KIND_SHARD: strcpy(text[n++], "3/8"); break;
     case KIND_STAIRS: strcpy(text[n++], "-0.17:0.29:8"); break;
     case KIND_LIST: strcpy(text[n++], "one thing"); break;
     }
