@@ -4,6 +4,14 @@
 
 #include "garment/fit.h"
 
+/* What a hip bent forwards does to the front of the tube. */
+typedef struct {
+    double hangs;                      /* 0..1: how far it hangs between pelvis and lap, instead of turning with the
+                                          legs, */
+    double gathers;                    /* 0..1: and is gathered at the waist, over a thigh against the belly */
+    double lap;                        /* metres below the hip joints along the leg: where the lap begins */
+} Bend;
+
 /* One pose seen by the envelope; private inside. */
 typedef struct {
     const Fit *fit;
@@ -15,7 +23,7 @@ typedef struct {
     double hip_height;                 /* of the hip joints in the canonical stance */
     Vec3 root;                         /* between the hip joints */
     Mat3 pelvis;
-    double flexion;                    /* 0..1: how far the front hangs between pelvis and legs */
+    Bend bend[2];                      /* left, right */
 } Envelope;
 
 /* Prepares the rings for a pose. */

@@ -44,6 +44,8 @@ typedef struct {
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
     double *clearance;                /* per mesh vertex: distance asked for, */
     double slack;                     /* of which this share may be missing in this sweep */
+    bool takes_back;                  /* do samples take pushes back in this sweep? */
+    double taken;                     /* the most that one of them has taken back in it, metres */
     Near *near;                       /* per mesh vertex */
     bool near_known;                  /* since the frame or the sheet changed */
     PushSample *sample;

@@ -119,6 +119,7 @@ static inline void box_add(Box *b, Vec3 p) {
     b->high = vec(p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y, p.z > high.z ? p.z : high.z);
 }
 
+static inline double lerp(double a, double b, double t) { return a + t * (b - a); }
 static inline double clamp(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 /* 0 below a, 1 above b, 3t^2 - 2t^3 between. */
 static inline double smoothstep(double a, double b, double x) {

@@ -11,6 +11,7 @@
 /* Reasons: half the shin's turn keeps the hem from folding behind a bent knee (1 folds it, 0 lets
    the shins out); 10 cm of rounding is a thigh's radius; the ring may not turn past the seat. */
 static const double SHIN_SHARE = 0.5, ROUNDING_CM = 10, TURN_LIMIT = 115 * PI / 180;
+static const double SLANT_LIMIT = 0.4; /* cosine: a leg's section by the plane of a ring grows no longer than at that */
 
 /* Convolution of max(0, x) with a unit triangle of half width r, and its derivative. */
 static double ramp(double x, double r) {
@@ -86,11 +87,19 @@ typedef struct {
     double xx, xz, zz;
 } Sym2;
 
-/* An ellipse u^T C^-1 u = 1 that holds the discs of radius rho round +-delta: the closed form
-   that is tight along delta and across it. */
-static Sym2 hold_discs(double dx, double dz, double rho) {
-    double size = fmax(hypot(dx, dz), 1e-9), k = 1 + rho / size, round = rho * rho + rho * size;
-    return (Sym2){k * dx * dx + round, k * dx * dz, k * dz * dz + round};
+/* An ellipse u^T C^-1 u = 1 that holds two ellipses E round +-delta: the closed form for the discs that E makes
+   of them, which is tight along delta and across it. */
+static Sym2 hold_both(double dx, double dz, Sym2 e) {
+    double det = e.xx * e.zz - e.xz * e.xz;
+    double size = sqrt(fmax((e.zz * dx * dx - 2 * e.xz * dx * dz + e.xx * dz * dz) / det, 1e-12));
+    double along = 1 + 1 / size, round = 1 + size;
+    return (Sym2){along * dx * dx + round * e.xx, along * dx * dz + round * e.xz, along * dz * dz + round * e.zz};
+}
+
+/* What a plane cuts out of a leg of radius rho that is slanted to it: (x, z) the leg's unit tangent in the plane. */
+static Sym2 cut_leg(double rho, double x, double z) {
+    double stretch = rho * rho / fmax(1 - x * x - z * z, SLANT_LIMIT * SLANT_LIMIT);
+    return (Sym2){rho * rho + stretch * x * x, stretch * x * z, rho * rho + stretch * z * z};
 }
 
 /* The symmetric square root. */
@@ -102,13 +111,14 @@ static Sym2 root_of(Sym2 c) {
 /* max(0, x) with a soft corner of width r. */
 static double soft_positive(double x, double r) { return 0.5 * (x + sqrt(x * x + r * r)); }
 
-/* The ellipse of the ring at s for leg centres at +-(dx, dz) in ring axes: it holds both legs,
-   and keeps the trace of the rest ellipse, which is about its perimeter squared, while it can. */
-static Sym2 ring_ellipse(const Envelope *env, double s, const FitRing *rest, double dx, double dz, double share) {
-    double cm = env->cm, depth = 0.5 * (rest->front + rest->back), offset = 0.5 * fabs(rest->front - rest->back);
-    double rho = leg_radius(env, s) + 2.2 * cm + 0.5 * offset;
-    if (fabs(dx) < 3 * cm) dx = dx < 0 ? -3 * cm : 3 * cm;
-    Sym2 need = hold_discs(dx, dz, rho), calm = hold_discs(env->rest_hip, 0, rho);
+/* The ellipse of a ring for leg centres at +-(dx, dz) in its axes, with what its plane cuts out of a leg, of radius
+   rho: it holds both legs, and keeps the trace of the rest ellipse, which is about its perimeter squared, while it
+   can. Legs that cross keep a little of the width between them. */
+static Sym2 ring_ellipse(const Envelope *env, const FitRing *rest, double rho, double dx, double dz, Sym2 leg,
+                         double share) {
+    double cm = env->cm, depth = 0.5 * (rest->front + rest->back), apart = 3 * cm;
+    leg.xx += fmax(apart * apart - dx * dx, 0);
+    Sym2 need = hold_both(dx, dz, leg), calm = hold_both(env->rest_hip, 0, cut_leg(rho, 0, 0));
     double nx = fmax(rest->side * rest->side - calm.xx, cm * cm), nz = fmax(depth * depth - calm.zz, cm * cm);
     double spare = soft_positive(rest->side * rest->side + depth * depth - need.xx - need.zz, 10 * cm * cm);
     double wx = spare * nx / (nx + nz), wz = spare * nz / (nx + nz);
@@ -126,6 +136,13 @@ static Mat3 ring_axes(const Envelope *env, Vec3 t) {
     return mat_mul(mat_between(env->down, t), env->pelvis);
 }
 
+/* Where the plane through `at` with unit normal n cuts a leg that runs through p along t: no farther from p than the
+   leg's path is rounded. */
+static Vec3 cut_path(const Envelope *env, Vec3 p, Vec3 t, Vec3 at, Vec3 n) {
+    double most = ROUNDING_CM * env->cm, along = fmin(vec_dot(t, n), -SLANT_LIMIT);
+    return vec_mad(p, t, clamp(vec_dot(vec_sub(at, p), n) / along, -most, most));
+}
+
 /* The ring that turns with the legs. */
 static Vec3 turning_point(const Envelope *env, double s, double x, double z) {
     double cm = env->cm, share = smoothstep(-8 * cm, 10 * cm, s);
@@ -134,10 +151,14 @@ static Vec3 turning_point(const Envelope *env, double s, double x, double z) {
     Vec3 t = vec_scale(vec_add(tangent[0], tangent[1]), share);
     t = vec_unit_or(vec_mad(t, env->down, 2 * (1 - share)), env->down);
     Mat3 axes = ring_axes(env, t);
-    Vec3 ax = mat_column(axes, 0), az = mat_column(axes, 2);
+    Vec3 ax = mat_column(axes, 0), up = mat_column(axes, 1), az = mat_column(axes, 2);
+    Vec3 middle = vec_mid(path[0], path[1]);
+    for (int leg = 0; leg < 2; leg++) path[leg] = cut_path(env, path[leg], tangent[leg], middle, up);
     FitRing rest = rest_size(env, s);
-    Vec3 half = vec_scale(vec_sub(path[0], path[1]), 0.5);
-    Sym2 m = root_of(ring_ellipse(env, s, &rest, vec_dot(half, ax), vec_dot(half, az), share));
+    Vec3 half = vec_scale(vec_sub(path[0], path[1]), 0.5), slant = vec_scale(vec_sub(tangent[0], tangent[1]), 0.5);
+    double rho = leg_radius(env, s) + 2.2 * cm + 0.25 * fabs(rest.front - rest.back);
+    Sym2 leg = cut_leg(rho, vec_dot(slant, ax), vec_dot(slant, az));
+    Sym2 m = root_of(ring_ellipse(env, &rest, rho, vec_dot(half, ax), vec_dot(half, az), leg, share));
     Vec3 centre = vec_lerp(vec_mad(env->root, env->down, s), vec_mid(path[0], path[1]), share);
     centre = vec_mad(centre, az, rest.z + 0.5 * (rest.front - rest.back));
     return vec_mad(vec_mad(centre, ax, m.xx * x + m.xz * z), az, m.xz * x + m.zz * z);
@@ -154,15 +175,42 @@ static Vec3 pelvis_point(const Envelope *env, double s, double x, double z) {
 double envelope_place(const Envelope *env, int ring) { return env->hip_height - env->fit->ring[ring].y; }
 
 Vec3 envelope_point(const Envelope *env, double s, double x, double z) {
+    const Bend *of = env->bend;
+    double left = 0.5 + 0.5 * clamp(x, -1, 1), front = clamp(0.5 + 0.5 * z, 0, 1);
+    Bend bend = {.hangs = front * lerp(of[1].hangs, of[0].hangs, left),
+                 .gathers = lerp(of[1].gathers, of[0].gathers, left),
+                 .lap = lerp(of[1].lap, of[0].lap, left)};
     Vec3 turning = turning_point(env, s, x, z);
-    double front = clamp(0.5 + 0.5 * z, 0, 1) * env->flexion;
-    if (front <= 0) return turning;
+    if (bend.hangs <= 0) return turning;
     /* Rings of a bent hip cross in the groin; there the front hangs straight from the pelvis to
        where the lap begins, and the back keeps the rings that wrap the seat. */
-    double lap = 14 * env->cm, top = envelope_place(env, 0);
-    double beyond = lap + soft_positive(s - lap, 2 * env->cm), down = smoothstep(top, lap, s);
-    Vec3 linear = vec_lerp(pelvis_point(env, s, x, z), turning_point(env, beyond, x, z), down);
-    return vec_lerp(turning, linear, front);
+    double top = envelope_place(env, 0), beyond = bend.lap + soft_positive(s - bend.lap, 2 * env->cm);
+    double down = smoothstep(top, bend.lap, s), from = s < top ? s : lerp(s, top, bend.gathers);
+    Vec3 linear = vec_lerp(pelvis_point(env, from, x, z), turning_point(env, beyond, x, z), down);
+    return vec_lerp(turning, linear, bend.hangs);
+}
+
+/* By how much a direction is bent forwards from that of the pelvis, 0 to pi; nothing for one to the side. */
+static double flexion_of(const Envelope *env, Vec3 direction) {
+    double down = clamp(vec_dot(direction, env->down), -1, 1);
+    double forwards = vec_dot(direction, mat_column(env->pelvis, 2));
+    return acos(down) * smoothstep(0, 0.5, forwards / fmax(sqrt(1 - down * down), 1e-6));
+}
+
+/* Where the lap begins: a thigh bent far lies against the belly, and comes out of it farther down. */
+static double lap_of(const Envelope *env, double flexion) {
+    FitRing waist = rest_size(env, envelope_place(env, 0));
+    double least = 14 * env->cm, most = 26 * env->cm;
+    if (flexion < 0.5 * PI) return least;
+    double out = (waist.z + waist.front - leg_radius(env, 0) * cos(flexion)) / fmax(sin(flexion), 0.3);
+    return clamp(out, least, most);
+}
+
+static Bend bend_of(const Envelope *env, Vec3 thigh, Vec3 mean) {
+    double flexion = flexion_of(env, thigh), most = fmax(flexion, flexion_of(env, mean));
+    return (Bend){.hangs = smoothstep(30 * PI / 180, 75 * PI / 180, most),
+                  .gathers = smoothstep(75 * PI / 180, 120 * PI / 180, flexion),
+                  .lap = lap_of(env, flexion)};
 }
 
 void envelope_pose(Envelope *env, const Fit *fit, const Figure *figure, const Body *body, const Pose *pose) {
@@ -183,7 +231,5 @@ void envelope_pose(Envelope *env, const Fit *fit, const Figure *figure, const Bo
     env->rest_hip = 0.5 * vec_dist(figure->start[ROLE_LEFT_THIGH], figure->start[ROLE_RIGHT_THIGH]);
     env->hip_height = figure->start[ROLE_LEFT_THIGH].y;
     Vec3 mean = vec_unit_or(vec_add(env->thigh[0], env->thigh[1]), env->down);
-    Vec3 forward = mat_column(env->pelvis, 2);
-    double angle = atan2(vec_dot(mean, forward), vec_dot(mean, env->down));
-    env->flexion = smoothstep(30 * PI / 180, 75 * PI / 180, angle < -0.5 * PI ? angle + 2 * PI : angle);
+    for (int leg = 0; leg < 2; leg++) env->bend[leg] = bend_of(env, env->thigh[leg], mean);
 }

@@ -4,8 +4,9 @@
 
    The unknowns are the displacements of level vertices, coarse and fine together: a projection
    moves all that reach the sample, in proportion to their weights, by the least change; pinned ones
-   give way last. Which half space it is, dress/escape tells; what the levels are too coarse for is left
-   to dress/settle. */
+   give way last. What others have made needless of it is taken back (Hildreth 1957), so that the cloth goes
+   no farther than it must. Which half space it is, dress/escape tells; what the levels are too coarse for is
+   left to dress/settle. */
 #include "dress/push.h"
 
 #include <string.h>
@@ -15,7 +16,9 @@ enum { SWEEPS_MAX = 30, STALL = 5, ROUNDS_MAX = 3 };
 static const double REACH = 0.04;    /* vertices farther from the body are not swept */
 static const double SLACK = 0.1;     /* share of the clearance that may be missing after sweeps; settling makes
                                         up for it */
-static const double PIN_GIVES = 0.2; /* a pinned level vertex moves this share of what a free one would */
+static const double PIN_GIVES = 0.2; /* a pinned level vertex moves this share of what a free one would, and one */
+static const double PINNED = 0.25;   /* of a level this share of the next finer one: a waist gives way in places */
+static const double LITTLE = 0.002;  /* pushes that go no farther than that are not worth taking back */
 static const double NORM_MIN = 0.1;  /* a sample that level vertices hardly move must not fling them */
 static const double BUDGET = 0.02;   /* a sample may issue twice its first violation and this */
 static const double HEADWAY = 0.6;   /* pushes that get this share of their length nowhere are a pinch */
@@ -64,14 +67,14 @@ static void find_mobility(Push *p, const Leaves *leaves) {
     for (int level = 0; level <= l->depth; level++) {
         const LatticeLevel *at = &l->level[level];
         int size = 1 << (l->depth - level);
-        double of_level = pow(p->coarser, l->depth - level);
+        double of_level = pow(p->coarser, l->depth - level), if_pinned = PIN_GIVES * pow(PINNED, l->depth - level);
         for (int v = 0; v < at->count; v++) {
             bool all = true;
             for (int k = at->first_cell[v]; all && k < at->first_cell[v + 1]; k++) {
                 LatticeCell c = at->cell[k];
                 all = leaves->level[(c.patch * cells + c.a * size) * cells + c.b * size] >= level;
             }
-            p->mobility[p->field.start[level] + v] = all ? (at->pinned[v] ? PIN_GIVES : 1) * of_level : 0;
+            p->mobility[p->field.start[level] + v] = !all ? 0 : at->pinned[v] ? if_pinned : of_level;
         }
     }
 }
@@ -194,6 +197,20 @@ static bool needs_asking(Push *p, const Sheet *sheet, PushSample *s, double enou
     return slack <= gone;
 }
 
+/* Others may have carried a sample farther out than it asked for itself. Then it takes its own pushes back, as far as
+   it keeps its clearance. Returns how far that is. */
+static double take_back(Push *p, const Sheet *sheet, PushSample *s, double weight[][4], double clearance,
+                        PushResult *result) {
+    double pushed = vec_len(s->net), way = fmin(s->near.least - clearance, pushed);
+    if (pushed <= 0 || way <= 0) return 0;
+    Vec3 n = vec_scale(s->net, -1 / pushed);
+    s->spent -= way;
+    s->net = vec_mad(s->net, n, way);
+    project(p, s, weight, n, way, result);
+    near_move(&s->near, sample_point(p, sheet, s, weight));
+    return way;
+}
+
 /* Pushes one sample out of the parts it is too near to. Parts that have been found clear are left alone until the
    sample has used up its slack, but for those that give way: in a fold that may change at once. Returns the depth
    of the worst violation that was acted on. */
@@ -224,27 +241,31 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
         most = fmax(most, depth);
     }
     near_sum(&s->near, far);
+    if (most == 0 && p->takes_back) p->taken = fmax(p->taken, take_back(p, sheet, s, weight, at.clearance, result));
     return most;
 }
 
 /* One pass over all samples; returns how far one was pushed at most, 0 = nothing to do. */
 static double sweep(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
     double most = 0;
+    p->taken = 0;
     for (int k = 0; k < p->nsamples; k++) most = fmax(most, push_sample(p, body, sheet, &p->sample[k], result));
     return most;
 }
 
-/* Sweeps until nothing is violated, or nothing gets better, or the cap. Returns the sum of the
-   largest moves: nobody has gone farther. */
+/* Sweeps until nothing is violated and little taken back, or nothing gets better, or the cap; the last ones take
+   nothing back. Returns the sum of the largest moves: nobody has gone farther. */
 static double sweep_all(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
     double moved = 0, before = INFINITY, most = 0;
     bool stalls = false;
+    p->takes_back = true;
     for (int k = 0; k < SWEEPS_MAX && !stalls; k++) {
         p->slack = k == 0 ? 0 : SLACK;
         most = sweep(p, body, sheet, result);
-        if (most <= 0) break;
-        moved += most;
+        if (most <= 0 && p->taken <= 0) break;
+        moved += fmax(most, p->taken);
         result->sweeps++;
+        if (most <= 0 && p->taken < LITTLE * p->field.scale) p->takes_back = false;
         if (k % STALL != STALL - 1) continue;
         stalls = most > 0.5 * before;
         before = most;
