@@ -41,7 +41,7 @@ void field_set_offset(Field *f, int place, Vec3 offset);
 
 static inline bool field_is_zero(Vec3 d) { return d.x == 0 && d.y == 0 && d.z == 0; }
 
-/* Outward unit normal of the displaced patches at a place (analytic), or of the root patches where `levels` is 0. */
+/* Outward unit normal of the displaced patches at a place (analytic). */
 Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place);
 
 /* The field of `level` as a patch: over the cell of that level that holds a cell of a deeper one. Returns whether

@@ -46,6 +46,9 @@ typedef struct {
 
 MUST_CHECK bool lattice_build(const Fit *fit, int detail, int depth, Arena *arena, Lattice *out, Error *e);
 
+/* Cells of the deepest level, of all patches. */
+static inline int lattice_cells(const Lattice *l) { return l->fit->npatches << (2 * l->depth); }
+
 /* Number of the place (i, j) of a patch. */
 static inline int lattice_place(const Lattice *l, int patch, int i, int j) {
     int n = l->side + 1;
@@ -58,7 +61,8 @@ void lattice_owner(const Lattice *l, int place, int *patch, int *i, int *j);
 /* A place on the root patches. */
 Vec3 lattice_point(const Lattice *l, const Patch *root, int place);
 
-/* Outward unit normal of the root patches at a place. */
+/* Outward unit normal of a patch with these derivatives by its parameters; of the root patches at a place. */
+Vec3 lattice_outwards(const Lattice *l, int patch, Vec3 du, Vec3 dw);
 Vec3 lattice_normal(const Lattice *l, const Patch *root, int place);
 
 /* The up to four level-l vertices that move a place and their weights; du, dw (may be NULL): the

@@ -122,8 +122,7 @@ Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place)
             dw = vec_mad(dw, f->displacement[f->start[level] + id[k]], ww[k]);
         }
     }
-    Vec3 n = vec_cross(du, dw);
-    return vec_unit_or(l->fit->patch[patch].flip ? vec_scale(n, -1) : n, vec(0, 1, 0));
+    return lattice_outwards(l, patch, du, dw);
 }
 
 /* The four corners' vectors, each to its quarter of the control points. */

@@ -226,11 +226,15 @@ Vec3 lattice_point(const Lattice *l, const Patch *root, int place) {
     return bezier_weighted(&root[patch], l->basis[i], l->basis[j]);
 }
 
+Vec3 lattice_outwards(const Lattice *l, int patch, Vec3 du, Vec3 dw) {
+    Vec3 n = vec_cross(du, dw);
+    return vec_unit_or(l->fit->patch[patch].flip ? vec_scale(n, -1) : n, vec(0, 1, 0));
+}
+
 Vec3 lattice_normal(const Lattice *l, const Patch *root, int place) {
     int patch, i, j;
     lattice_owner(l, place, &patch, &i, &j);
     Vec3 du = bezier_weighted(&root[patch], l->basis_slope[i], l->basis[j]);
     Vec3 dw = bezier_weighted(&root[patch], l->basis[i], l->basis_slope[j]);
-    Vec3 n = vec_cross(du, dw);
-    return vec_unit_or(l->fit->patch[patch].flip ? vec_scale(n, -1) : n, vec(0, 1, 0));
+    return lattice_outwards(l, patch, du, dw);
 }

@@ -16,7 +16,7 @@ static const double STEP = 0.005; /* metres on a figure of 1.70 m */
 static const double STILL = 1e-9; /* metres: a motion below this has no direction */
 
 bool literal_reserve(Literal *l, const Lattice *lattice, const Body *body, Arena *arena, Error *e) {
-    int n = lattice->detail, leaves = lattice->fit->npatches << (2 * lattice->depth), most = 0;
+    int n = lattice->detail, leaves = lattice_cells(lattice), most = 0;
     int vertices = leaves * (n + 1) * (n + 1);
     for (int p = 0; p < body->nparts; p++)
         if (body->part[p].nvertices > most) most = body->part[p].nvertices;

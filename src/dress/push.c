@@ -45,7 +45,7 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
         !field_reserve(&p->kept, lattice, arena, e) || !surface_reserve(&p->surface, lattice, arena, e))
         return false;
     int places = lattice->nplaces;
-    p->cell = ARENA_NEW(arena, PushCell, lattice->fit->npatches << (2 * lattice->depth), e);
+    p->cell = ARENA_NEW(arena, PushCell, lattice_cells(lattice), e);
     p->along = ARENA_NEW(arena, PushAlong, lattice->side + 1, e);
     if (!p->cell || !p->along) return false;
     list_unknowns(p);

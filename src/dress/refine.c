@@ -6,16 +6,16 @@
 
 bool leaves_reserve(Leaves *leaves, const Lattice *lattice, Arena *arena, Error *e) {
     leaves->lattice = lattice;
-    leaves->level = ARENA_NEW(arena, unsigned char, lattice->fit->npatches << (2 * lattice->depth), e);
+    leaves->level = ARENA_NEW(arena, unsigned char, lattice_cells(lattice), e);
     return leaves->level != NULL;
 }
 
 void leaves_fill(Leaves *leaves, int level) {
-    memset(leaves->level, level, (size_t)leaves->lattice->fit->npatches << (2 * leaves->lattice->depth));
+    memset(leaves->level, level, (size_t)lattice_cells(leaves->lattice));
 }
 
 void leaves_copy(const Leaves *from, Leaves *to) {
-    memcpy(to->level, from->level, (size_t)from->lattice->fit->npatches << (2 * from->lattice->depth));
+    memcpy(to->level, from->level, (size_t)lattice_cells(from->lattice));
 }
 
 /* Raises a whole cell of `level` to at least that level. */
@@ -51,7 +51,7 @@ int leaves_count(const Leaves *leaves) {
 }
 
 bool classifier_reserve(Classifier *c, const Lattice *lattice, Arena *arena, Error *e) {
-    int n = lattice->detail, most = lattice->fit->npatches << (2 * lattice->depth);
+    int n = lattice->detail, most = lattice_cells(lattice);
     *c = (Classifier){.lattice = lattice, .capacity = most, .found_capacity = 16 * most * n + 4096};
     for (int level = 0; level <= lattice->depth; level++)
         if (!grid_rows(n << level, arena, &c->rows[level], e)) return false;

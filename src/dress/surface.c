@@ -23,7 +23,7 @@ typedef struct { LatticeCell cell; int level; } Leaf;
 static bool next_leaf(const Sheet *sheet, int *at, Leaf *leaf) {
     const Lattice *l = sheet->lattice;
     Leaves laid = {l, sheet->laid};
-    int bits = l->depth, mask = (1 << bits) - 1, end = l->fit->npatches << (2 * bits);
+    int bits = l->depth, mask = (1 << bits) - 1, end = lattice_cells(l);
     for (; *at < end; ++*at) {
         int patch = *at >> (2 * bits), x = *at >> bits & mask, y = *at & mask, level = leaf_at(&laid, patch, x, y);
         if (level < 0) continue;

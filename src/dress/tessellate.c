@@ -5,9 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes that tell one set of leaves from another. */
-static size_t leaves_size(const Lattice *l) { return (size_t)l->fit->npatches << (2 * l->depth); }
-
 bool sheet_reserve(Sheet *s, const Lattice *lattice, Arena *arena, Error *e) {
     int places = lattice->nplaces, triangles = 2 * lattice->fit->npatches * lattice->side * lattice->side;
     *s = (Sheet){.lattice = lattice};
@@ -19,7 +16,7 @@ bool sheet_reserve(Sheet *s, const Lattice *lattice, Arena *arena, Error *e) {
     s->edge = ARENA_NEW(arena, Edge, 3 * triangles, e);
     s->first_edge = ARENA_NEW(arena, int, places, e);
     s->next_edge = ARENA_NEW(arena, int, 3 * triangles, e);
-    s->laid = ARENA_NEW(arena, unsigned char, leaves_size(lattice), e);
+    s->laid = ARENA_NEW(arena, unsigned char, lattice_cells(lattice), e);
     return s->place && s->vertex && s->lone && s->triangle && s->first_of_patch && s->edge && s->first_edge &&
            s->next_edge && s->laid;
 }
@@ -115,8 +112,8 @@ static void list_lone(Sheet *s, const Leaves *leaves) {
 void tessellate(Sheet *s, const Leaves *leaves) {
     const Lattice *l = s->lattice;
     int cells = 1 << l->depth;
-    if (s->ntriangles && memcmp(s->laid, leaves->level, leaves_size(l)) == 0) return;
-    memcpy(s->laid, leaves->level, leaves_size(l));
+    if (s->ntriangles && memcmp(s->laid, leaves->level, (size_t)lattice_cells(l)) == 0) return;
+    memcpy(s->laid, leaves->level, (size_t)lattice_cells(l));
     s->nvertices = s->ntriangles = s->nedges = 0;
     memset(s->vertex, -1, (size_t)l->nplaces * sizeof *s->vertex);
     for (int pass = 0; pass < 2; pass++) {
