@@ -14,6 +14,10 @@ typedef struct {
     float distance[BODY_PARTS_MAX]; /* of those in `parts` */
 } Near;
 
+/* The first part of a set that is not empty. To go through one:
+       for (unsigned left = parts; left; left &= left - 1) ... near_first(left) ... */
+static inline int near_first(unsigned parts) { return __builtin_ctz(parts); }
+
 /* Fills near[v] for all vertices, the n-th at point[n], with the parts that are nearer than `far`. known: those
    that stand where they were seen stay. */
 void near_find(Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3 *point, double far, bool known);

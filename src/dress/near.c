@@ -82,14 +82,14 @@ void near_find(Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3
 
 void near_sum(Near *near, double far) {
     near->least = (float)far;
-    for (int part = 0; near->parts >> part; part++)
-        if (near->parts >> part & 1) near->least = fminf(near->least, near->distance[part]);
+    for (unsigned left = near->parts; left; left &= left - 1)
+        near->least = fminf(near->least, near->distance[near_first(left)]);
 }
 
 unsigned near_parts(const Near *near, const BodyFrame *body, unsigned roles) {
-    unsigned parts = near->parts;
-    for (int part = 0; near->parts >> part; part++)
-        if (!(roles & part_bit(body, part))) parts &= ~(1u << part);
+    unsigned parts = 0;
+    for (unsigned left = near->parts; left; left &= left - 1)
+        if (roles & part_bit(body, near_first(left))) parts |= 1u << near_first(left);
     return parts;
 }
 
@@ -99,8 +99,7 @@ double near_slack(double distance, double clearance) { return LIPSCHITZ * (dista
 
 void near_move(Near *near, Vec3 p) {
     float gone = (float)(vec_dist(p, near->seen) / LIPSCHITZ);
-    for (int part = 0; near->parts >> part; part++)
-        if (near->parts >> part & 1) near->distance[part] -= gone;
+    for (unsigned left = near->parts; left; left &= left - 1) near->distance[near_first(left)] -= gone;
     near->least -= gone;
     near->seen = p;
 }

@@ -223,8 +223,8 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
     escape_at(&at, sheet->place[s->vertex], s->near.seen, clearance);
     at.near = s->near.parts;
     at.slack = p->slack;
-    for (int part = 0; s->near.parts >> part; part++) {
-        if (!(s->near.parts >> part & 1)) continue;
+    for (unsigned left = s->near.parts; left; left &= left - 1) {
+        int part = near_first(left);
         if (near_slack(s->near.distance[part], enough) > 0 && !(s->asked >> part & 1)) continue;
         Vec3 n;
         double distance = body_point_distance(body, part, &at.point, far, &n);
