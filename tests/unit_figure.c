@@ -289,6 +289,17 @@ static void test_crouch(void) {
     rig_close(&found);
 }
 
+/* Feet lie along the shins of one who kneels, and look back: a moment of standing tells where they point. */
+static void test_kneel(void) {
+    Rig told, found;
+    if (!OK(rig_open(&told, "tests/data/figure/kneel_tpose.bvh", NULL) &&
+                rig_open(&found, "tests/data/figure/kneel.bvh", NULL), "kneelers open")) return;
+    double off = foot_difference(&told, &found);
+    OK(off < 16, "the feet of one who kneels point the same way without a zero pose (%.1f degrees)", off);
+    rig_close(&told);
+    rig_close(&found);
+}
+
 /* A thigh that is lifted towards the chest, a little to the side, while the knee is stretched and while it is bent. */
 static void test_lifted_thigh(void) {
     static const double flexion[] = {0, 45, 90, 120, 150}, knee[] = {5, 60, 120};
@@ -469,6 +480,7 @@ int main(void) {
     test_lying();
     test_toppled();
     test_crouch();
+    test_kneel();
     test_lifted_thigh();
     for (int i = 0; i < (int)(sizeof real / sizeof real[0]); i++) test_real(i);
     test_same_skeleton();

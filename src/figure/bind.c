@@ -216,9 +216,18 @@ static Mat3 sole(Vec3 along, Vec3 up, double slope) {
     return mat_columns(left, vec_cross(ahead, left), ahead);
 }
 
-/* Along the shin upwards, on the mean: ankles bend forwards and back, but to the side only little. */
-static Vec3 up_the_shin(const Binder *b, Role foot) {
-    return vec_unit_or(seen_from(b, b->f->roles.joint[foot], b->f->roles.joint[foot - 1]), vec(0, 1, 0));
+/* Along the shin upwards, on the mean: ankles bend forwards and back, but to the side only little. A foot that lies
+   along the shin, as of one who kneels, says next to nothing of its sides. along: where the foot points. */
+static Vec3 up_the_shin(const Binder *b, Role foot, Vec3 along) {
+    int ankle = b->f->roles.joint[foot], knee = b->f->roles.joint[foot - 1];
+    Vec3 sum = {0, 0, 0};
+    for (int i = 0; i < b->sample->count; i++) {
+        Vec3 shin = vec_sub(place(b, i, knee), place(b, i, ankle));
+        shin = vec_unit_or(mat_apply(mat_transpose(turn(b, i, ankle)), shin), vec(0, 1, 0));
+        Vec3 aside = vec_cross(shin, along);
+        sum = vec_mad(sum, shin, vec_dot(aside, aside));
+    }
+    return vec_unit_or(sum, vec(0, 1, 0));
 }
 
 /* What lies ahead of the ankle and does not move against it: the toe joint, or the tip of a foot without one. -1: there
@@ -239,7 +248,7 @@ static int standing(const Binder *b, Role foot, int out[SAMPLE_BEST_MAX]) {
 static Vec3 up_of_sole(const Binder *b, Role foot, Vec3 along) {
     static const double ALIKE = 0.99, NEAR = 0.95; /* cosines, means of them */
     int frames[SAMPLE_BEST_MAX], n = standing(b, foot, frames);
-    Vec3 shin = up_the_shin(b, foot), up = {0, 0, 0};
+    Vec3 shin = up_the_shin(b, foot, along), up = {0, 0, 0};
     for (int i = 0; i < n; i++)
         up = vec_add(up, mat_column(mat_transpose(turn(b, frames[i], b->f->roles.joint[foot])), 1));
     if (n < 3 || vec_len(up) < ALIKE * n) return shin;
@@ -255,7 +264,7 @@ static Mat3 foot_from_rest(const Binder *b, Role foot, Mat3 rest) {
     double fall = -vec_dot(along, up);
     if (fabs(fall) > 0.87 || vec_dot(along, mat_column(rest, 2)) <= 0) return rest;
     bool astride = fabs(vec_dot(rest_bone(b->skeleton, b->f, foot - 1), mat_column(rest, 0))) > ASTRIDE;
-    bool flipped = vec_dot(vec_cross(up, along), vec_cross(up_the_shin(b, foot), along)) < 0;
+    bool flipped = vec_dot(vec_cross(up, along), vec_cross(up_the_shin(b, foot, along), along)) < 0;
     return sole(along, astride || flipped ? up_of_sole(b, foot, along) : up, asin(fall));
 }
 
@@ -268,7 +277,7 @@ static bool foot_from_frames(const Binder *b, Role foot, Mat3 *bind) {
     Vec3 along = seen_from(b, joint, tip);
     double size = vec_len(along), slope = 0, usual = asin(clamp(FIGURE_FOOT_RISE * b->f->height / size, 0, 0.7));
     along = vec_scale(along, 1 / size);
-    if (!(size > 0) || vec_len(vec_cross(up_the_shin(b, foot), along)) < 0.3) return false;
+    if (!(size > 0) || vec_len(vec_cross(up_the_shin(b, foot, along), along)) < 0.3) return false;
     int n = standing(b, foot, frames);
     for (int i = 0; i < n; i++) slope += asin(clamp(-mat_apply(turn(b, frames[i], joint), along).y, -1, 1)) / n;
     *bind = sole(along, up_of_sole(b, foot, along), clamp(slope, usual - UNUSUAL, usual + UNUSUAL));
