@@ -38,6 +38,9 @@ void body_frame_pose(BodyFrame *f, const Pose *pose);
    See body_distance for `far`. */
 double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal);
 
+/* Of n points, `far` where that is less. */
+void body_frame_distances(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance);
+
 /* A world point that several parts are asked about, or one more than once, as happens where they press on each other:
    what a part says of it without the others is found once. */
 typedef struct {

@@ -6,6 +6,8 @@
 #include "dress/flesh.h"
 #include "geometry/boxtree.h"
 
+enum { LOT = 64 }; /* points that are asked about at a time */
+
 bool body_frame_init(BodyFrame *f, const Body *body, double unit, Arena *arena, Error *e) {
     *f = (BodyFrame){.body = body, .unit = unit, .room = YIELD_ROOM * figure_scale(body->height)};
     f->position = ARENA_NEW(arena, Vec3, body->skin.nvertices, e);
@@ -108,16 +110,22 @@ bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p) {
     return false;
 }
 
-/* Those of n <= 16 points that are inside of a part where nothing presses on it are asked again one by one. */
+/* Most are far enough where nothing presses on the part, and the others are asked again one by one. */
+void body_frame_distances(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance) {
+    body_frame_unpressed_many(f, part, p, n, far, distance, NULL);
+    for (int i = 0; i < n && f->contacts[part].n > 0; i++)
+        if (distance[i] < far) distance[i] = body_frame_distance(f, part, p[i], far, NULL);
+}
+
 static bool any_inside_part(const BodyFrame *f, int part, const Vec3 *p, int n) {
-    Vec3 at[16];
-    double distance[16];
+    Vec3 at[LOT];
+    double distance[LOT];
     int count = 0;
     for (int i = 0; i < n; i++)
         if (!body_frame_far(f, part, p[i], 0)) at[count++] = p[i];
-    if (count > 0) body_frame_unpressed_many(f, part, at, count, 0, distance, NULL);
+    if (count > 0) body_frame_distances(f, part, at, count, 0, distance);
     for (int i = 0; i < count; i++)
-        if (distance[i] < 0 && body_frame_distance(f, part, at[i], 0, NULL) < 0) return true;
+        if (distance[i] < 0) return true;
     return false;
 }
 
@@ -126,8 +134,8 @@ bool body_frame_any_inside(const BodyFrame *f, unsigned parts, const Vec3 *p, in
     for (int i = 0; i < n; i++) box_add(&box, p[i]);
     for (int k = 0; k < f->body->nparts; k++) {
         if (!(parts & part_bit(f, k)) || !box_touches(box, f->box[k])) continue;
-        for (int i = 0; i < n; i += 16)
-            if (any_inside_part(f, k, p + i, n - i < 16 ? n - i : 16)) return true;
+        for (int i = 0; i < n; i += LOT)
+            if (any_inside_part(f, k, p + i, n - i < LOT ? n - i : LOT)) return true;
     }
     return false;
 }

@@ -8,7 +8,7 @@
 #include "geometry/boxtree.h"
 
 enum { FOUND_MAX = 1 << 13, BAD_MAX = 3 * FOUND_MAX, HITS_MAX = BAD_MAX / 2 };
-enum { BLOCK = 16 }; /* vertices that share a box */
+enum { BLOCK = 16, LOT = 256 }; /* vertices that share a box; that are asked about at a time */
 enum { SOME = 8 };   /* there is room to move this part of all edges and triangles */
 
 static bool reserve_sets(TesterCloth *c, int edges, int triangles, Arena *arena, Error *e) {
@@ -210,22 +210,40 @@ static void box_vertices(Tester *t, const Vec3 *position, int n, double to_metre
     }
 }
 
+/* The next vertices from *v on, at most LOT, that may be inside of a part, with their points in metres. */
+static int next_suspects(const Tester *t, const BodyFrame *body, int part, const Vec3 *position, int nvertices,
+                         const bool *clear, int *v, int suspect[LOT], Vec3 point[LOT]) {
+    double to_metres = 1 / body->unit;
+    int n = 0;
+    for (; *v < nvertices && n < LOT; ++*v) {
+        if (*v % BLOCK == 0 && !box_touches(t->block[*v / BLOCK], body->box[part])) {
+            *v += BLOCK - 1;
+            continue;
+        }
+        if (clear && clear[*v]) continue;
+        suspect[n] = *v;
+        point[n] = vec_scale(position[*v], to_metres);
+        n += !body_frame_far(body, part, point[n], 0);
+    }
+    return n;
+}
+
 void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, const bool *clear,
                    Residual *own, Residual *other) {
-    double to_metres = 1 / body->unit;
-    box_vertices(t, position, nvertices, to_metres);
-    for (int p = 0; p < body->body->nparts; p++)
-        for (int v = 0; v < nvertices; v++) {
-            if (v % BLOCK == 0 && !box_touches(t->block[v / BLOCK], body->box[p])) {
-                v += BLOCK - 1;
-                continue;
+    int suspect[LOT];
+    Vec3 point[LOT];
+    double distance[LOT];
+    box_vertices(t, position, nvertices, 1 / body->unit);
+    for (int p = 0; p < body->body->nparts; p++) {
+        Residual *r = t->own & part_bit(body, p) ? own : other;
+        for (int v = 0, n; (n = next_suspects(t, body, p, position, nvertices, clear, &v, suspect, point)) > 0;) {
+            body_frame_distances(body, p, point, n, 0, distance);
+            for (int k = 0; k < n; k++) {
+                if (distance[k] >= 0) continue;
+                r->inside++;
+                r->deepest = fmax(r->deepest, -distance[k]);
+                add_bad(t, &suspect[k], 1);
             }
-            if (clear && clear[v]) continue;
-            double d = body_frame_distance(body, p, vec_scale(position[v], to_metres), 0, NULL);
-            if (d >= 0) continue;
-            Residual *r = t->own & part_bit(body, p) ? own : other;
-            r->inside++;
-            r->deepest = fmax(r->deepest, -d);
-            add_bad(t, &v, 1);
         }
+    }
 }
