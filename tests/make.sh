@@ -22,7 +22,7 @@ else
     skip 'make install' "not the build of this folder: $KITSUKE"
 fi
 
-# -- lint on a small house --------------------------------------------------------------
+# Lint on a small house.
 mkdir -p house/.ci house/tests house/include/base house/include/files house/src/base house/src/files
 cp "$root/.ci/lint.sh" "$root/.ci/run" house/.ci
 cp "$root/tests/lib.sh" house/tests

@@ -26,7 +26,7 @@ static bool is_rotation(Mat3 m) {
     return vec_dot(vec_cross(m.r[0], m.r[1]), m.r[2]) > 0;
 }
 
-/* ---- by definition ---- */
+/* --- by definition --- */
 
 static void check_stance(const Figure *f, const char *what) {
     static const int pairs[][2] = {
@@ -74,7 +74,7 @@ static void test_reference(void) {
     NEAR(figure_speed(&f, &rest, &moved, 0.1), 2, 1e-12, "0.34 m in 0.1 s are 2 heights a second");
 }
 
-/* ---- every family the same human ---- */
+/* --- every family the same human --- */
 
 static const char *const families[] = {
     "smpl", "unity", "vrm", "xsens", "rigify", "genesis", "neuron", "acclaim_names", "optitrack", "kinect", "mmd",
@@ -161,7 +161,7 @@ static void test_families(void) {
     rig_close(&one);
 }
 
-/* ---- size ---- */
+/* --- size --- */
 
 /* Writes mixamo.bvh with every length multiplied: OFFSETs and the three position channels. */
 static void write_scaled(const char *path, double factor) {
@@ -324,7 +324,7 @@ static void test_lifted_thigh(void) {
     rig_close(&r);
 }
 
-/* ---- real motions ---- */
+/* --- real motions --- */
 
 enum { WALKS = 1, STANDS = 2 }; /* goes ahead; head over pelvis and pelvis upright all the time */
 
@@ -444,7 +444,7 @@ static void test_same_skeleton(void) {
     rig_close(&b);
 }
 
-/* ---- nonsense ---- */
+/* --- nonsense --- */
 
 static void test_no_size(void) {
     /* A human by names, all joints in one point. */

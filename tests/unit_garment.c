@@ -22,7 +22,7 @@ static const Garment *parse_good(const char *source) {
     return e.kind ? NULL : &first;
 }
 
-/* ---- equality, field by field, since structs have padding ---- */
+/* --- equality, field by field, since structs have padding --- */
 
 static bool same_vec(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
@@ -80,7 +80,7 @@ static bool same_garment(const Garment *a, const Garment *b) {
     return same;
 }
 
-/* ---- texts that the cases are made of ---- */
+/* --- texts that the cases are made of --- */
 
 #define RINGS "garment g\nring a pelvis 1 ease 0.01\nring b pelvis 0.2\nring c left_thigh 0.5 size 0.2 0.15 0.15\n"
 #define PANEL RINGS "panel p\nrow a left front right\nrow b left front right\nrow c left front right\n"
@@ -94,7 +94,7 @@ static bool same_garment(const Garment *a, const Garment *b) {
 #define POINT ".1 .2 .3 pelvis 1\n"
 #define POINTS16 POINT POINT POINT POINT POINT POINT POINT POINT POINT POINT POINT POINT POINT POINT POINT POINT
 
-/* ---- what is read ---- */
+/* --- what is read --- */
 
 static void reads_rings(void) {
     const Garment *g = parse_good("garment g\nring a left_thigh -.25 tilt -30 shift 0.1 -0.2 0.3 ease 1e-2 size 1 2 3\n"
@@ -198,7 +198,7 @@ static void seams_meet(void) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) OK(parse_good(cases[i].text), "seam: %s", cases[i].says);
 }
 
-/* ---- writing and reading again ---- */
+/* --- writing and reading again --- */
 
 static char *written(const Garment *g) {
     char *bytes = NULL;
@@ -285,7 +285,7 @@ static void documented(void) {
     arena_free(&arena);
 }
 
-/* ---- mistakes ---- */
+/* --- mistakes --- */
 
 typedef struct {
     const char *text;

@@ -9,7 +9,7 @@
 
 #include "figure/measure.h"
 
-/* ---- means of rotations ---- */
+/* --- means of rotations --- */
 
 typedef struct { Quat sum; int count; } Mean;
 
@@ -27,7 +27,7 @@ static Mat3 mean_of(const Mean *m) {
     return mat_from_quat((Quat){q.w / n, q.x / n, q.y / n, q.z / n});
 }
 
-/* ---- shared ---- */
+/* --- shared --- */
 
 typedef struct {
     const Skeleton *skeleton;
@@ -69,7 +69,7 @@ static Vec3 seen_from(const Binder *b, int joint, int other) {
     return vec_scale(sum, 1.0 / b->sample->count);
 }
 
-/* ---- upright frames ---- */
+/* --- upright frames --- */
 
 /* From hips to shoulders, unit. */
 static Vec3 back_line(const Binder *b, int frame) {
@@ -141,7 +141,7 @@ static Mat3 head_from_rest(const Binder *b, const int *frames, int n, Mat3 rest)
     return mat_mul(rest, mat_axis_angle(vec(1, 0, 0), back - HEAD_BACK));
 }
 
-/* ---- what the skeleton tells ---- */
+/* --- what the skeleton tells --- */
 
 /* The bind, turned about left so that `line`, which is upright in those who stand, leans by no more than `most`
    (radians) against its up. line: in the joint's frame. */
@@ -207,7 +207,7 @@ static Mat3 head_from_bones(const Binder *b, Mat3 bind) {
     return vec_len(top) > 0 ? lean_within(bind, top, LEAN) : bind;
 }
 
-/* ---- feet ---- */
+/* --- feet --- */
 
 /* Flat, pointing where `along` does, which falls by `slope` radians; the sole's up as near to `up` as can be. */
 static Mat3 sole(Vec3 along, Vec3 up, double slope) {
@@ -312,7 +312,7 @@ static void bind_foot(const Binder *b, Role foot, const Rest *rest, const int *u
     bind_toe(b, foot, rest);
 }
 
-/* ---- */
+/* --- all of it --- */
 
 /* Puts the canonical point half-way between the starts of two bones where the two joints are
    on the mean, in the joint's frame. */

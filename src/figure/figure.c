@@ -27,7 +27,7 @@ bool figure_build(const Motion *m, const Roles *roles, const FigureOptions *opti
     return true;
 }
 
-/* ---- pose ---- */
+/* --- pose --- */
 
 typedef struct {
     const Figure *f;

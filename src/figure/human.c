@@ -94,7 +94,7 @@ static bool human_score(const Tree *t, const LimbPair *legs, const LimbPair *arm
     return true;
 }
 
-/* ---- left and right ---- */
+/* --- left and right --- */
 
 /* Where feet and knees point, summed over the legs of one frame; *size: how long it would be if all agreed, about
    two feet's lengths. */
@@ -166,7 +166,7 @@ static int same_side(const Tree *t, const LimbPair *legs, const LimbPair *arms) 
     return votes >= 0 ? 1 : -1;
 }
 
-/* ---- limbs to roles ---- */
+/* --- limbs to roles --- */
 
 static int real_joint(const Tree *t, int joint) { return joint >= 0 && !t->skeleton->joint[joint].is_end ? joint : -1; }
 
@@ -214,7 +214,7 @@ static void set_arm(const Tree *t, const Limb *l, int right, Roles *out) {
     out->joint[ROLE_LEFT_HAND + shift] = real_joint(t, l->joint[2]);
 }
 
-/* ---- torso, neck and head ---- */
+/* --- torso, neck and head --- */
 
 /* How far the hip line turns in the frame of `joint`, as mean cosine: 1 where it is fixed. */
 static double hip_line_fixed(const Tree *t, int joint, const LimbPair *legs) {
@@ -356,7 +356,7 @@ static void set_torso(const Tree *t, const Human *h, Roles *out) {
     out->joint[ROLE_NECK] = neck;
 }
 
-/* ---- */
+/* --- the human --- */
 
 static void set_limbs(const Tree *t, const LimbPair *legs, const LimbPair *arms, int left, int same, Roles *out) {
     for (int i = 0; i < 2; i++) {

@@ -14,7 +14,7 @@ static const double HIP_HEIGHT = 0.885, SHOULDER_HEIGHT = 1.385;
 static const double SOLE = 0.016; /* below toe joint or tip */
 static const Lengths adult = {0.176, 0.415, 0.39, 0.08, 0.50, 0.34, 0.28, 0.25, 0.18};
 
-/* ---- canonical stance ---- */
+/* --- canonical stance --- */
 
 static void set_pair(Figure *f, Role left, Role right, Vec3 start, Vec3 end) {
     f->start[left] = start;
@@ -58,7 +58,7 @@ Figure figure_reference(void) {
     return f;
 }
 
-/* ---- lengths ---- */
+/* --- lengths --- */
 
 static Vec3 between(const Sample *s, int frame, int a, int b) {
     return vec_mid(sample_point(s, frame, a), sample_point(s, frame, b));
@@ -131,7 +131,7 @@ static double ankle_height(const Skeleton *skeleton, const Sample *s, const Rest
     return sum;
 }
 
-/* ---- unit ---- */
+/* --- unit --- */
 
 /* least: the smallest child that is seen in this unit; 0 where only adults are. Babies are half a metre long,
    but rigs of no unit at all may be 50 units tall, or half a one. */
@@ -168,7 +168,7 @@ static void find_unit(double stature, double file_unit, Figure *f) {
         }
 }
 
-/* ---- */
+/* --- ends and lengths --- */
 
 /* The hand points to what lies farthest along the forearm below it, on the mean: a finger, not
    the thumb, nor a thing in the hand. */

@@ -60,7 +60,7 @@ typedef struct {
     Rigid to_part[KEPT_OFF_MOST];
 } Search;
 
-/* ---- joints ---- */
+/* --- joints --- */
 
 /* Shoulder or elbow: unit axes of the turns to the side and forwards, world frame. */
 typedef struct {
@@ -108,7 +108,7 @@ void relax_apply(const Figure *figure, const ArmTurn turn[ARMS], Pose *pose) {
     for (int arm = 0; arm < ARMS; arm++) turn_arm(figure, pose, arm, &turn[arm]);
 }
 
-/* ---- gaps ---- */
+/* --- gaps --- */
 
 /* How far the cloth on a part stands off it at height y of the part's frame: in front of it as far as
    `facing` (cosine) says, else beside it. */
@@ -221,7 +221,7 @@ static double least_angle(const Search *s, const Slice *slice, int trunk, Vec3 a
     return high;
 }
 
-/* ---- turns ---- */
+/* --- turns --- */
 
 /* A way to turn an arm, and one that is preferred where it wins more room; a zero vector: none. */
 typedef struct { Vec3 at, axis, rival; } Swing;

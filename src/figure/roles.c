@@ -43,7 +43,7 @@ Role role_find(const char *name, int length) {
     return ROLE_COUNT;
 }
 
-/* ---- the file ---- */
+/* --- the file --- */
 
 static bool blank(char c) { return c == ' ' || c == '\t'; }
 
@@ -109,7 +109,7 @@ MUST_CHECK static bool read_file(const Skeleton *s, const char *path, Arena *scr
     return e->kind == ERR_NONE;
 }
 
-/* ---- */
+/* --- what must be there --- */
 
 static bool check_required(const Motion *m, const Roles *roles, Error *e) {
     char list[256] = "";
