@@ -227,13 +227,10 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
         int part = near_first(left);
         if (near_slack(s->near.distance[part], enough) > 0 && !(s->asked >> part & 1)) continue;
         Vec3 n;
-        double distance = body_point_unpressed(body, part, &at.point, far);
-        s->near.distance[part] = (float)distance;
-        if (body->contacts[part].n > 0) s->asked |= 1u << part;
-        if (distance >= enough) continue; /* what presses on it makes that more */
-        distance = body_point_distance(body, part, &at.point, far, &n);
+        double distance = body_point_distance(body, part, &at.point, far, &n);
         double depth = escape_asked(&p->escape, body, &at, part, distance, &n);
         s->near.distance[part] = (float)distance;
+        if (body->contacts[part].n > 0) s->asked |= 1u << part;
         if (depth <= 0) continue;
         if (s->budget < 0) s->budget = 2 * depth + BUDGET * p->field.scale;
         s->spent += depth;
