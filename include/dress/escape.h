@@ -16,11 +16,12 @@ typedef struct {
 typedef struct {
     int place;
     BodyPoint point;       /* where it is now */
-    unsigned near;         /* parts (bits 1 << part) that leave it room or not */
+    unsigned near;         /* parts (bits 1 << part) that may take room from it */
     double clearance;      /* the distance, metres, */
     double slack;          /* of which this share may be missing */
 } EscapePoint;
 
+/* Cloth of a place that is at `at` (world, metres), near to no part so far, with nothing missing that may. */
 static inline void escape_at(EscapePoint *p, int place, Vec3 at, double clearance) {
     p->place = place;
     p->near = 0;
