@@ -1,24 +1,15 @@
 /* The Bernstein form, de Casteljau's split and the blossom describe one surface. */
 #include "geometry/grid.h"
 
-#include <stdint.h>
 #include <string.h>
 
+#include "dice.h"
 #include "tap.h"
-
-static uint64_t state = 88172645463325252u;
-
-static double random_unit(void) {
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return (double)(state >> 11) / 9007199254740992.0;
-}
 
 static Patch random_patch(void) {
     Patch p;
     for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++) p.p[i][j] = vec(random_unit(), random_unit(), random_unit());
+        for (int j = 0; j < 4; j++) p.p[i][j] = dice_point();
     return p;
 }
 
@@ -28,7 +19,7 @@ static void split_keeps_the_surface(void) {
         Patch patch = random_patch(), child[4];
         bezier_split(&patch, child);
         for (int k = 0; k < 4; k++) {
-            double u = random_unit(), w = random_unit(), u0 = 0.5 * (k / 2), w0 = 0.5 * (k % 2);
+            double u = dice_unit(), w = dice_unit(), u0 = 0.5 * (k / 2), w0 = 0.5 * (k % 2);
             Vec3 whole = bezier_point(&patch, u0 + 0.5 * u, w0 + 0.5 * w, NULL, NULL);
             Patch part = bezier_part(&patch, u0, u0 + 0.5, w0, w0 + 0.5);
             worst = fmax(worst, vec_dist(whole, bezier_point(&child[k], u, w, NULL, NULL)));
@@ -57,7 +48,7 @@ static void derivatives_are_limits(void) {
     double worst = 0, h = 1e-6;
     for (int n = 0; n < 100; n++) {
         Patch patch = random_patch();
-        double u = 0.1 + 0.8 * random_unit(), w = 0.1 + 0.8 * random_unit();
+        double u = 0.1 + 0.8 * dice_unit(), w = 0.1 + 0.8 * dice_unit();
         Vec3 du, dw;
         bezier_point(&patch, u, w, &du, &dw);
         Vec3 nu = vec_scale(

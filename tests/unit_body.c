@@ -3,11 +3,7 @@
 #include <string.h>
 
 #include "bodies.h"
-
-static double uniform(unsigned *seed) {
-    *seed = *seed * 1664525u + 1013904223u;
-    return (*seed >> 8) / 16777216.0;
-}
+#include "dice.h"
 
 /* --- shells --- */
 
@@ -85,7 +81,6 @@ static void test_shells(int detail) {
 static void test_distance(const Body *b) {
     double worst_vertex = 0, worst_patch = 0, worst_offset = 0, worst_gradient = 0, worst_unit = 0;
     int wrong_sign = 0;
-    unsigned seed = 7;
     for (int i = 0; i < b->nparts; i++) {
         const BodyPart *part = &b->part[i];
         for (int k = part->first_vertex; k < part->first_vertex + part->nvertices; k++) {
@@ -93,7 +88,7 @@ static void test_distance(const Body *b) {
             worst_vertex = fmax(worst_vertex, fabs(d) / part->reach);
         }
         for (int k = 0; k < 2000; k++) {
-            double y = height_at(part, 0.02 + 0.96 * uniform(&seed)), phi = 2 * PI * uniform(&seed);
+            double y = height_at(part, 0.02 + 0.96 * dice_unit()), phi = 2 * PI * dice_unit();
             Vec3 p = surface_point(part, y, phi, 1), n;
             wrong_sign += distance(part, surface_point(part, y, phi, 1.001)) <= 0;
             wrong_sign += distance(part, surface_point(part, y, phi, 0.999)) >= 0;
@@ -112,7 +107,7 @@ static void test_distance(const Body *b) {
         for (int row = 0; row + 1 < b->part[i].nsections; row++)
             for (int quarter = 0; quarter < 4; quarter++, patch++)
                 for (int k = 0; k < 20; k++) {
-                    double u = uniform(&seed), w = uniform(&seed);
+                    double u = dice_unit(), w = dice_unit();
                     Vec3 p = rigid_unapply(b->part[i].frame, bezier_point(patch, u, w, NULL, NULL));
                     worst_patch = fmax(worst_patch, fabs(distance(&b->part[i], p)) / b->part[i].reach);
                 }
@@ -129,7 +124,6 @@ static void test_bounds(const Body *b) {
     enum { ROUND = 64, ALONG = 96 };
     static Vec3 cloud[ROUND * ALONG];
     const double far = 0.03;
-    unsigned seed = 11;
     int too_long = 0, too_near = 0, over = 0, checked = 0;
     for (int i = 0; i < b->nparts; i++) {
         const BodyPart *part = &b->part[i];
@@ -137,8 +131,8 @@ static void test_bounds(const Body *b) {
             for (int k = 0; k < ROUND; k++)
                 cloud[j * ROUND + k] = surface_point(part, height_at(part, j / (ALONG - 1.0)), 2 * PI * k / ROUND, 1);
         for (int k = 0; k < 400; k++) {
-            Vec3 p = vec((uniform(&seed) - 0.5) * 3 * part->reach, height_at(part, 1.4 * uniform(&seed) - 0.2),
-                         (uniform(&seed) - 0.5) * 3 * part->reach);
+            Vec3 p = vec((dice_unit() - 0.5) * 3 * part->reach, height_at(part, 1.4 * dice_unit() - 0.2),
+                         (dice_unit() - 0.5) * 3 * part->reach);
             double truth = INFINITY, d = body_distance(part, p, far, NULL), whole = distance(part, p);
             for (int j = 0; j < ROUND * ALONG; j++) truth = fmin(truth, vec_dist(p, cloud[j]));
             if (whole <= 0) continue;
@@ -169,7 +163,6 @@ static void test_bounds(const Body *b) {
 static void test_many(const Body *b) {
     enum { N = 500 };
     static const double reaches[] = {0, 0.04, INFINITY};
-    unsigned seed = 5;
     Vec3 p[N], normal[N], up;
     double distance[N];
     for (Vectors v = VECTORS_BEST; v < VECTORS_COUNT; v++) {
@@ -179,8 +172,8 @@ static void test_many(const Body *b) {
             const BodyPart *part = &b->part[i];
             Rigid to_part = rigid_inverse(part->frame);
             for (int k = 0; k < N; k++) {
-                double width = k % 10 == 0 ? 0 : 2 * part->reach * uniform(&seed);
-                double phi = 2 * PI * uniform(&seed), at = 1.4 * uniform(&seed) - 0.2;
+                double width = k % 10 == 0 ? 0 : 2 * part->reach * dice_unit();
+                double phi = 2 * PI * dice_unit(), at = 1.4 * dice_unit() - 0.2;
                 Vec3 in_part = vec(width * sin(phi), height_at(part, k % 3 ? at : 0.1 * at), width * cos(phi));
                 p[k] = rigid_apply(part->frame, in_part);
             }

@@ -1,6 +1,7 @@
 /* Chunks of every span hold each of its frames once, and begin where the motion says. */
 #include "app/chunks.h"
 
+#include "dice.h"
 #include "tap.h"
 
 static int frames_of(const FrameSpan *s) { return (s->last - s->first) / s->step + 1; }
@@ -25,13 +26,10 @@ static bool is_covered(const FrameSpan *span, const Chunks *c) {
 static void test_cover(void) {
     static const double rates[] = {0.01, 1, 24, 30, 66, 119.88, 120, 1000, 1e6};
     int bad = 0, n = 0, several = 0;
-    unsigned seed = 1;
     for (int i = 0; i < 20000; i++) {
-        seed = seed * 1664525u + 1013904223u;
-        int total = 1 + (int)(seed >> 8) % (i % 2 ? 20000 : 2000);
-        seed = seed * 1664525u + 1013904223u;
-        FrameSpan span = {1 + (int)(seed >> 8) % total, total, 1 + i % 7 * (i % 5 == 0)};
-        span.last -= (int)(seed >> 12) % (total - span.first + 1);
+        int total = 1 + (int)dice_below(i % 2 ? 20000 : 2000);
+        FrameSpan span = {1 + (int)dice_below((unsigned)total), total, 1 + i % 7 * (i % 5 == 0)};
+        span.last -= (int)dice_below((unsigned)(total - span.first + 1));
         Chunks c = chunks_plan(&span, rates[i % 9], total);
         bool good = is_covered(&span, &c) && c.count >= 1;
         several += c.count > 1;

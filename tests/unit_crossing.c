@@ -2,19 +2,12 @@
    in nothing else; and on every kind of vectors that this machine has. */
 #include "geometry/crossing.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "geometry/predicate.h"
+#include "dice.h"
 #include "tap.h"
-
-static uint64_t seed = 88172645463325252u;
-static unsigned below(unsigned n) {
-    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
-    return (unsigned)((seed >> 20) % n);
-}
-static double unit(void) { return below(1u << 30) * 0x1p-30; }
 
 enum { VERTICES = 6000, ITEMS = 6000, HITS = 100000 };
 
@@ -107,7 +100,7 @@ static void check(Bench *b) {
     b->hits += n;
     b->wrong_counts += !same_count(count, wanted);
 
-    int room = (int)below((unsigned)n + 1);
+    int room = (int)dice_below((unsigned)n + 1);
     static const Crossing mark = {-1, -1};
     Crossing *part = b->found + n;
     part[room] = mark;
@@ -144,7 +137,7 @@ static void soup(Bench *b, int nedges, int ntriangles, double size, Vec3 origin)
     b->nedges = nedges;
     b->ntriangles = ntriangles;
     for (int i = 0; i < VERTICES; i++) {
-        Vec3 p = vec_add(origin, vec(unit(), unit(), unit())), q = vec_add(origin, vec(unit(), unit(), unit()));
+        Vec3 p = vec_add(origin, dice_point()), q = vec_add(origin, dice_point());
         b->v[i] = i % 3 ? vec_mad(b->v[i - 1], vec_sub(p, origin), size) : p;
         b->w[i] = i % 3 ? vec_mad(b->w[i - 1], vec_sub(q, origin), size) : q;
     }
@@ -183,18 +176,20 @@ static void test_far(Bench *b) {
     report(b, "any scale");
 }
 
+static Vec3 on_grid(unsigned side) { return vec(dice_below(side), dice_below(side), dice_below(side)); }
+
 /* Whole-number vertices used by many items: nearly every pair that meets only touches. */
 static void test_grid(Bench *b) {
     for (int n = 0; n < 40; n++) {
-        unsigned side = 2 + below(6);
+        unsigned side = 2 + dice_below(6);
         b->nedges = 200, b->ntriangles = 200;
         for (int i = 0; i < 300; i++) {
-            b->v[i] = vec_scale(vec(below(side), below(side), below(side)), n % 2 ? 1 : 0.1);
-            b->w[i] = below(2) ? b->v[i] : vec_scale(vec(below(side), below(side), below(side)), n % 2 ? 1 : 0.1);
+            b->v[i] = vec_scale(on_grid(side), n % 2 ? 1 : 0.1);
+            b->w[i] = dice_below(2) ? b->v[i] : vec_scale(on_grid(side), n % 2 ? 1 : 0.1);
         }
         for (int i = 0; i < 200; i++) {
-            b->edge[i] = (Edge){{(int)below(300), (int)below(300)}};
-            b->triangle[i] = (Triangle){{(int)below(300), (int)below(300), (int)below(300)}};
+            b->edge[i] = (Edge){{(int)dice_below(300), (int)dice_below(300)}};
+            b->triangle[i] = (Triangle){{(int)dice_below(300), (int)dice_below(300), (int)dice_below(300)}};
         }
         check(b);
     }
@@ -211,12 +206,12 @@ static void test_near_planes(Bench *b) {
             int *k = b->triangle[t].v;
             k[0] = 3 * t, k[1] = 3 * t + 1, k[2] = 3 * t + 2;
             Vec3 *w = b->w + 3 * t;
-            Vec3 aside = vec_scale(vec(unit(), unit(), unit()), ldexp(1, -2 * (t % 20)));
-            if (t % 2) w[2] = vec_add(vec_lerp(w[0], w[1], unit()), aside);
+            Vec3 aside = vec_scale(dice_point(), ldexp(1, -2 * (t % 20)));
+            if (t % 2) w[2] = vec_add(vec_lerp(w[0], w[1], dice_unit()), aside);
             for (int i = 0; i < 2; i++) {
                 int end = 4 * t + 2 * i;
-                b->v[end] = vec_lerp(vec_lerp(w[0], w[1], unit()), w[2], unit());
-                b->v[end + 1] = vec_add(far, vec(unit(), unit(), unit()));
+                b->v[end] = vec_lerp(vec_lerp(w[0], w[1], dice_unit()), w[2], dice_unit());
+                b->v[end + 1] = vec_add(far, dice_point());
                 b->edge[2 * t + i] = (Edge){{end, end + 1}};
             }
         }

@@ -1,21 +1,14 @@
 /* Lines of numbers: printf's, byte for byte, with any vectors; and texts that are found again. */
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "files/digits.h"
 #include "files/memo.h"
+#include "dice.h"
 #include "tap.h"
 
 enum { NUMBERS = DIGITS_LINES * DIGITS_COLUMNS };
-
-static uint64_t state = 1;
-
-static double random_unit(void) {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(state >> 11) * 0x1p-53;
-}
 
 static void print_lines(char *out, const char *tag, const double *x, double unit, int columns) {
     for (int line = 0; line < DIGITS_LINES; line++) {
@@ -42,7 +35,7 @@ static void numbers_of_all_sizes(Vectors v) {
     for (int n = 0; n < 3000; n++) {
         double x[NUMBERS], unit = n % 2 ? 1 : 0.37;
         for (int i = 0; i < NUMBERS; i++)
-            x[i] = (random_unit() - 0.5) * 2 * pow(10, 1 - floor(10 * random_unit())) * (random_unit() > 0.01);
+            x[i] = (dice_unit() - 0.5) * 2 * pow(10, 1 - floor(10 * dice_unit())) * (dice_unit() > 0.01);
         for (int i = 0; i < NUMBERS; i++) x[i] = fabs(x[i]) < 9.9 ? x[i] : 1 / x[i];
         int found = compare(x, unit, 1 + n % 3, v);
         wrong += found == 0;
@@ -67,7 +60,7 @@ static void whole_millionths(Vectors v) {
 static void between_two_digits(Vectors v) {
     int wrong = 0, refused = 0;
     for (int n = 0; n < 2000; n++) {
-        double x[NUMBERS], middle = (floor(9999998 * random_unit()) + 0.5) / 1e6;
+        double x[NUMBERS], middle = (floor(9999998 * dice_unit()) + 0.5) / 1e6;
         for (int i = 0; i < NUMBERS; i++) x[i] = i == n % NUMBERS ? middle : 0.25;
         for (int k = n % 9; k > 0; k--) x[n % NUMBERS] = nextafter(x[n % NUMBERS], n % 2 ? 0 : 10);
         int found = compare(x, 1, 3, v);

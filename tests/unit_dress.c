@@ -6,17 +6,11 @@
 #include "dress/border.h"
 #include "dress/follow.h"
 #include "dress/tessellate.h"
+#include "dice.h"
 #include "scene.h"
 
 static const char *const SHIPPED[] = {"skirt", "paper-skirt", "trousers", "tshirt"};
 enum { NSHIPPED = 4, DETAIL = 4, DEPTH = 2 };
-
-static unsigned state = 12345;
-
-static double random_unit(void) {
-    state = state * 1664525u + 1013904223u;
-    return (state >> 8) / 16777216.0;
-}
 
 /* A scene, and what its garment is made of. */
 typedef struct {
@@ -46,8 +40,8 @@ static void open_cloth(Cloth *c, const char *name) {
 static Pose random_pose(const Figure *f) {
     Pose p;
     for (int r = 0; r < ROLE_COUNT; r++) {
-        Vec3 axis = vec_unit_or(vec(random_unit() - 0.5, random_unit() - 0.5, random_unit() - 0.5), vec(1, 0, 0));
-        Mat3 m = mat_axis_angle(axis, 0.6 * random_unit());
+        Vec3 axis = vec_unit_or(dice_around(), vec(1, 0, 0));
+        Mat3 m = mat_axis_angle(axis, 0.6 * dice_unit());
         p.bone[r] = (Rigid){m, vec_sub(f->start[r], mat_apply(m, f->start[r]))};
     }
     return p;
@@ -76,7 +70,7 @@ static void field_is_smooth(Cloth *s, const char *name) {
     bool *known = calloc((size_t)l->nplaces, sizeof *known);
     for (int level = 0; level <= DEPTH; level++) {
         d[level] = calloc((size_t)l->level[level].count, sizeof(Vec3));
-        for (int v = 0; v < l->level[level].count; v++) d[level][v] = vec(random_unit(), random_unit(), random_unit());
+        for (int v = 0; v < l->level[level].count; v++) d[level][v] = dice_point();
     }
     for (int p = 0; p < s->fit.npatches; p++)
         for (int i = 0; i <= l->side; i++)
@@ -148,9 +142,9 @@ static int border_loops(const Sheet *s, bool *sound) {
 static void split_at_random(Cloth *s) {
     leaves_fill(&s->leaves, 0);
     for (int k = 0; k < s->fit.npatches; k++) {
-        int level = (int)(random_unit() * (DEPTH + 1)), cells = 1 << level;
-        leaves_split(&s->leaves, (int)(random_unit() * s->fit.npatches), level, (int)(random_unit() * cells),
-                     (int)(random_unit() * cells));
+        int level = (int)(dice_unit() * (DEPTH + 1)), cells = 1 << level;
+        leaves_split(&s->leaves, (int)(dice_unit() * s->fit.npatches), level, (int)(dice_unit() * cells),
+                     (int)(dice_unit() * cells));
     }
 }
 

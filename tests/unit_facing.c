@@ -3,20 +3,14 @@
 
 #include "geometry/cone.h"
 #include "sheet.h"
+#include "dice.h"
 #include "tap.h"
 
 enum { DIRECTIONS = 20000, FAN = 16 };
 
-static unsigned state = 4711;
-
-static double random_unit(void) {
-    state = state * 1664525u + 1013904223u;
-    return (state >> 8) / 16777216.0;
-}
-
 static Vec3 random_direction(void) {
     for (;;) {
-        Vec3 d = vec(2 * random_unit() - 1, 2 * random_unit() - 1, 2 * random_unit() - 1);
+        Vec3 d = dice_around();
         if (vec_dot(d, d) <= 1 && vec_dot(d, d) > 0.01) return vec_unit_or(d, d);
     }
 }
@@ -43,7 +37,7 @@ static void test_cone(void) {
     for (int round = 0; round < 200; round++) {
         Vec3 p[FAN], about = random_direction(), axis;
         int n = 1 + round % FAN;
-        double spread = 3 * random_unit();
+        double spread = 3 * dice_unit();
         for (int i = 0; i < n; i++) p[i] = vec_unit_or(vec_mad(about, random_direction(), spread), about);
         double best = best_of_sphere(p, n);
         bool has = cone_axis(p, n, &axis) > 0;
@@ -80,7 +74,7 @@ static void bend(Bent *b) {
     b->mesh.normal = b->normal;
     for (int v = 0; v < VERTICES; v++) {
         b->normal[v] = b->sheet.normal[v];
-        if (v % 7 == 0) b->sheet.position[v] = vec_mad(b->sheet.position[v], random_direction(), 0.6 * random_unit());
+        if (v % 7 == 0) b->sheet.position[v] = vec_mad(b->sheet.position[v], random_direction(), 0.6 * dice_unit());
     }
 }
 

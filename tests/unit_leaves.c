@@ -2,21 +2,15 @@
 #include <string.h>
 
 #include "dress/push.h"
+#include "dice.h"
 #include "scene.h"
-
-static unsigned state = 4711;
-
-static double random_unit(void) {
-    state = state * 1664525u + 1013904223u;
-    return (state >> 8) / 16777216.0;
-}
 
 static void split_at_random(Leaves *leaves, int npatches) {
     leaves_fill(leaves, 0);
     for (int k = 0; k < npatches; k++) {
-        int level = (int)(random_unit() * (leaves->lattice->depth + 1)), cells = 1 << level;
-        int a = (int)(random_unit() * cells), b = (int)(random_unit() * cells);
-        leaves_split(leaves, (int)(random_unit() * npatches), level, a, b);
+        int level = (int)(dice_unit() * (leaves->lattice->depth + 1)), cells = 1 << level;
+        int a = (int)(dice_unit() * cells), b = (int)(dice_unit() * cells);
+        leaves_split(leaves, (int)(dice_unit() * npatches), level, a, b);
     }
 }
 
@@ -83,12 +77,12 @@ static void leaves_are_the_surface(const char *name) {
     Patch *root = ARENA_NEW(&s.arena, Patch, fit.npatches, &s.error);
     need(&s, root != NULL);
     for (int p = 0; p < fit.npatches; p++)
-        for (int k = 0; k < 16; k++) root[p].p[k / 4][k % 4] = vec(random_unit(), random_unit(), random_unit());
+        for (int k = 0; k < 16; k++) root[p].p[k / 4][k % 4] = dice_point();
     split_at_random(&leaves, fit.npatches);
     for (int level = 0; level <= lattice.depth; level++)
         for (int v = 0; v < lattice.level[level].count; v++)
             if (is_open(&leaves, level, v))
-                push.field.displacement[push.field.start[level] + v] = vec(random_unit(), random_unit(), random_unit());
+                push.field.displacement[push.field.start[level] + v] = dice_point();
     double worst = 0;
     int n = 0, cells = 1 << lattice.depth;
     for (int p = 0; p < fit.npatches; p++)

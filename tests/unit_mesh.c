@@ -1,18 +1,11 @@
 /* mesh_snap against printf and strtod, the edge list against the definition. */
 #include "geometry/mesh.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "dice.h"
 #include "tap.h"
-
-static uint64_t seed = 88172645463325252u;
-static uint64_t next(void) {
-    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
-    return seed;
-}
-static double unit(void) { return (double)(next() >> 11) * 0x1p-53; }
 
 static bool as_written(double x) {
     char text[64];
@@ -30,15 +23,15 @@ static int count_bad(double (*make)(int), int n) {
     return bad;
 }
 
-static double metres(int i) { return (void)i, unit() * 4; }
-static double any_size(int i) { return ldexp(unit(), i % 61 - 31); } /* up to 5e8 */
-static double tiny(int i) { return ldexp(unit(), -20 - i % 1050); }
+static double metres(int i) { return (void)i, dice_unit() * 4; }
+static double any_size(int i) { return ldexp(dice_unit(), i % 61 - 31); } /* up to 5e8 */
+static double tiny(int i) { return ldexp(dice_unit(), -20 - i % 1050); }
 static double tie(int i) { return (2 * i + 1) / 128.0; }             /* an exact half of a millionth */
 static double near_half(int i) {
-    double half = ((double)(next() % 1000000000) + 0.5) / 1e6;
+    double half = (dice_below(1000000000) + 0.5) / 1e6;
     return i % 3 == 0 ? half : nextafter(half, i % 3 == 1 ? 0 : 1e9);
 }
-static double large_half(int i) { return 9e8 + (double)(next() % 1000000) + ((double)(i % 1000) + 0.5) / 1e6; }
+static double large_half(int i) { return 9e8 + dice_below(1000000) + ((double)(i % 1000) + 0.5) / 1e6; }
 static double written(int i) { return (double)i / 1e6; }
 
 static void test_snap(void) {

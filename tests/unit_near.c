@@ -2,15 +2,10 @@
 #include "dress/near.h"
 
 #include "dress/follow.h"
+#include "dice.h"
 #include "scene.h"
 
 static const double FAR = 0.03;
-
-static uint64_t seed = 88172645463325252u;
-static double next(void) {
-    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
-    return (double)(seed >> 11) / 4503599627370496.0 - 1; /* in -1..1 */
-}
 
 typedef struct {
     Scene s;
@@ -79,7 +74,7 @@ static void after_a_move(Worn *c) {
     int beyond = 0, unclear = 0, clear = 0;
     for (int v = 0; v < c->sheet.nvertices; v++) {
         Near near = c->near[v];
-        Vec3 to = vec_add(c->point[v], vec_scale(vec(next(), next(), next()), 0.02));
+        Vec3 to = vec_add(c->point[v], vec_scale(dice_around(), 0.02));
         if (near_clear(&near, to)) {
             clear++;
             unclear += body_frame_inside(&c->s.posed, ~0u, to);

@@ -2,7 +2,6 @@
 #include <errno.h>
 #include <math.h>
 #include <signal.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -11,8 +10,9 @@
 
 #include "files/decimal.h"
 #include "files/output.h"
-#include "tap.h"
+#include "dice.h"
 #include "folder.h"
+#include "tap.h"
 
 static bool is_there(const char *path) {
     struct stat info;
@@ -28,11 +28,6 @@ static bool holds(const char *path, const char *text) {
 }
 
 /* The same numbers in every run. */
-static uint64_t next_random(uint64_t *state) {
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return *state >> 11;
-}
-
 /* -- decimal -------------------------------------------------------------------------- */
 
 static bool same_as_printf(double x) {
@@ -74,24 +69,23 @@ static void test_decimal(void) {
         good &= same_as_printf(special[i]) && same_as_printf(-special[i]);
     OK(good, "decimal_put equals printf on special numbers");
 
-    uint64_t state = 1;
     good = true;
     for (int i = 0; i < 200000 && good; i++) {
-        double size = pow(10, (double)(next_random(&state) % 19) - 8);
-        double x = ((double)next_random(&state) * 0x1p-53 - 0.5) * 2 * size;
+        double size = pow(10, (int)dice_below(19) - 8);
+        double x = (dice_unit() - 0.5) * 2 * size;
         good = same_as_printf(x);
     }
     OK(good, "and on numbers of every size");
     good = true;
     for (int i = 0; i < 100000 && good; i++) {
-        double k = (double)(next_random(&state) % 4000000000u), half = (k + 0.5) / 1e6;
+        double k = dice_below(4000000000u), half = (k + 0.5) / 1e6;
         good = same_as_printf(k / 1e6) && same_as_printf(half) && same_as_printf(nextafter(half, 0)) &&
                same_as_printf(nextafter(half, 1e9)) && same_as_printf(k / 128);
     }
     OK(good, "and on snapped numbers and next to the middle between two");
     good = true;
     for (int i = 0; i < 100000 && good; i++) {
-        int n = (int)(next_random(&state) % 2147483648u) >> (i % 31);
+        int n = (int)dice_below(2147483648u) >> (i % 31);
         char ours[DECIMAL_MAX], theirs[32];
         *decimal_put_int(ours, n) = 0;
         snprintf(theirs, sizeof theirs, "%d", n);

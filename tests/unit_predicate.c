@@ -7,10 +7,10 @@
    has a solution; collapsed and coplanar ones are no special case of that. */
 #include "geometry/predicate.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "dice.h"
 #include "tap.h"
 
 /* --- whole numbers: sign and 32-bit digits, lowest first --- */
@@ -191,27 +191,20 @@ static int oracle_orient(const Vec3 v[4], int shift) {
 
 /* --- cases --- */
 
-static uint64_t seed = 88172645463325252u;
-static unsigned below(unsigned n) {
-    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
-    return (unsigned)((seed >> 20) % n);
-}
-static double unit(void) { return below(1u << 30) * 0x1p-30; }
 static Vec3 grid(int r) {
     unsigned n = 2 * (unsigned)r + 1;
-    return vec((int)below(n) - r, (int)below(n) - r, (int)below(n) - r);
+    return vec((int)dice_below(n) - r, (int)dice_below(n) - r, (int)dice_below(n) - r);
 }
 /* A coordinate as meshes are written: the double nearest to a whole number of millionths. */
 static double written(double x) { return round(x * 1e6) / 1e6; }
 static Vec3 written_point(Vec3 p) { return vec(written(p.x), written(p.y), written(p.z)); }
-static double resized(double x) { return ldexp(x, (int)below(60) - 30); }
-static Vec3 random_point(void) { return vec(unit() * 2 - 1, unit() * 2 - 1, unit() * 2 - 1); }
+static double resized(double x) { return ldexp(x, (int)dice_below(60) - 30); }
 
 static bool meets(const Vec3 v[5]) { return predicate_segment_triangle(v[0], v[1], v[2], v[3], v[4]); }
 
 /* The same answer whichever way round. */
 static bool symmetric(const Vec3 v[5], bool answer) {
-    unsigned r = below(12), i = 2 + r % 3, j = 2 + (r % 3 + 1 + r / 3 % 2) % 3, k = 9 - i - j, p = r / 6;
+    unsigned r = dice_below(12), i = 2 + r % 3, j = 2 + (r % 3 + 1 + r / 3 % 2) % 3, k = 9 - i - j, p = r / 6;
     return meets((Vec3[5]){v[p], v[1 - p], v[i], v[j], v[k]}) == answer;
 }
 
@@ -221,10 +214,10 @@ static void test_grid(int cases) {
     int wrong = 0, unsymmetric = 0, moved = 0, hits = 0, flat = 0;
     for (int n = 0; n < cases; n++) {
         Vec3 v[5], w[5];
-        int range = 1 + (int)below(3);
-        double scale = ldexp(1, (int)below(380) - 190), shift = n % 2 ? 0 : ldexp(scale, 40);
+        int range = 1 + (int)dice_below(3);
+        double scale = ldexp(1, (int)dice_below(380) - 190), shift = n % 2 ? 0 : ldexp(scale, 40);
         for (int k = 0; k < 5; k++) {
-            v[k] = k && below(8) == 0 ? v[below((unsigned)k)] : grid(range);
+            v[k] = k && dice_below(8) == 0 ? v[dice_below((unsigned)k)] : grid(range);
             w[k] = vec(v[k].x * scale + shift, v[k].y * scale - shift, v[k].z * scale + 2 * shift);
         }
         bool answer = meets(v);
@@ -242,18 +235,18 @@ static void test_grid(int cases) {
 /* Points of the triangle's plane, of its sides and corners, as far as doubles can express it;
    the segment goes through or ends there, so that each sign hangs on the last bit. */
 static void nearly_degenerate(Vec3 v[5]) {
-    for (int k = 0; k < 5; k++) v[k] = random_point();
-    if (below(2)) v[4] = vec_mad(v[2], vec_sub(v[3], v[2]), unit() * 2); /* nearly collapsed */
-    if (below(2)) v[4] = written_point(v[4]), v[3] = written_point(v[3]), v[2] = written_point(v[2]);
-    double s = below(3) ? unit() : 0, t = below(3) ? unit() : 0;
+    for (int k = 0; k < 5; k++) v[k] = dice_around();
+    if (dice_below(2)) v[4] = vec_mad(v[2], vec_sub(v[3], v[2]), dice_unit() * 2); /* nearly collapsed */
+    if (dice_below(2)) v[4] = written_point(v[4]), v[3] = written_point(v[3]), v[2] = written_point(v[2]);
+    double s = dice_below(3) ? dice_unit() : 0, t = dice_below(3) ? dice_unit() : 0;
     Vec3 x = vec_add(vec_add(vec_scale(v[2], 1 - s - t), vec_scale(v[3], s)), vec_scale(v[4], t));
-    if (below(2)) x = written_point(x);
-    if (below(2)) v[0] = written_point(v[0]);
-    unsigned how = below(4);
-    if (how == 0) v[1] = x;                                             /* ends in the plane */
-    if (how == 1) v[1] = vec_sub(vec_scale(x, 2), v[0]);                /* x is the middle */
-    if (how == 2) v[0] = x, v[1] = vec_mad(x, vec_sub(v[3], v[4]), unit()); /* in the plane */
-    if (how == 3) v[0] = x, v[1] = below(2) ? x : v[2 + below(3)];      /* a point, or to a corner */
+    if (dice_below(2)) x = written_point(x);
+    if (dice_below(2)) v[0] = written_point(v[0]);
+    unsigned how = dice_below(4);
+    if (how == 0) v[1] = x;                                                      /* ends in the plane */
+    if (how == 1) v[1] = vec_sub(vec_scale(x, 2), v[0]);                         /* x is the middle */
+    if (how == 2) v[0] = x, v[1] = vec_mad(x, vec_sub(v[3], v[4]), dice_unit()); /* in the plane */
+    if (how == 3) v[0] = x, v[1] = dice_below(2) ? x : v[2 + dice_below(3)];     /* a point, or to a corner */
 }
 
 static void test_nearly_degenerate(int cases) {
@@ -279,10 +272,10 @@ static void test_orient(int cases) {
     for (int n = 0; n < cases; n++) {
         Vec3 v[4];
         for (int k = 0; k < 4; k++) {
-            v[k] = n % 2 ? grid(100) : random_point();
+            v[k] = n % 2 ? grid(100) : dice_around();
             v[k] = vec(resized(v[k].x), resized(v[k].y), resized(v[k].z));
         }
-        Vec3 in_plane = vec_mad(vec_scale(vec_sub(v[1], v[0]), 1 + below(3)), vec_sub(v[2], v[0]), unit());
+        Vec3 in_plane = vec_mad(vec_scale(vec_sub(v[1], v[0]), 1 + dice_below(3)), vec_sub(v[2], v[0]), dice_unit());
         if (n % 3) v[3] = vec_add(v[0], in_plane);
         int s = predicate_orient(v[0], v[1], v[2], v[3]);
         wrong += s != oracle_orient(v, 120);
@@ -304,9 +297,9 @@ static void test_orient(int cases) {
 static void test_orient2(int cases) {
     int wrong = 0, odd = 0, zero = 0;
     for (int n = 0; n < cases; n++) {
-        Vec3 v[4] = {random_point(), random_point()};
+        Vec3 v[4] = {dice_around(), dice_around()};
         v[0].z = v[1].z = 0;
-        v[2] = vec_lerp(v[0], v[1], n % 2 ? 0.5 : unit() * 3 - 1);
+        v[2] = vec_lerp(v[0], v[1], n % 2 ? 0.5 : dice_unit() * 3 - 1);
         v[3] = vec(0, 0, 1);
         int s = predicate_orient2(v[0].x, v[0].y, v[1].x, v[1].y, v[2].x, v[2].y);
         wrong += s != oracle_orient(v, 90);
@@ -327,11 +320,11 @@ static void test_watertight(int cases) {
         for (int k = 0; k < 6; k++) {
             double s = k < 3 ? 1 : -1, tilt = n % 2 ? 0.2 : 0;
             Vec3 along = vec(s * (k % 3 == 0), s * (k % 3 == 1), s * (k % 3 == 2));
-            axis[k] = vec_mad(along, vec(unit(), unit(), unit()), tilt);
+            axis[k] = vec_mad(along, dice_point(), tilt);
         }
-        Vec3 inside = vec(unit() * 0.1, unit() * 0.1, unit() * 0.1);
-        unsigned from = below(3), to = 3 + (from + 1 + below(2)) % 3;
-        Vec3 on = vec_lerp(axis[from], axis[to], below(2) ? unit() : 0);
+        Vec3 inside = vec_scale(dice_point(), 0.1);
+        unsigned from = dice_below(3), to = 3 + (from + 1 + dice_below(2)) % 3;
+        Vec3 on = vec_lerp(axis[from], axis[to], dice_below(2) ? dice_unit() : 0);
         Vec3 outside = vec_mad(inside, vec_sub(on, inside), 40);
         bool hit = false;
         for (int k = 0; k < 8; k++) {
@@ -373,7 +366,7 @@ static void test_paper(int cases) {
     int differ = 0, hits = 0;
     for (int n = 0; n < cases; n++) {
         Vec3 v[5];
-        for (int k = 0; k < 5; k++) v[k] = random_point();
+        for (int k = 0; k < 5; k++) v[k] = dice_around();
         bool hit = predicate_paper(v[0], v[1], v[2], v[3], v[4]);
         differ += hit != meets(v);
         hits += hit;

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "dice.h"
 #include "scene.h"
 
 /* A cloth that lies in the body: its own skin, each vertex a little inwards or outwards. */
@@ -15,17 +16,12 @@ typedef struct {
     unsigned parts;
 } Cloth;
 
-static double random_unit(unsigned *state) {
-    *state = *state * 1664525 + 1013904223;
-    return (*state >> 8) * 0x1p-24;
-}
-
-static Vec3 somewhere_near(const Cloth *c, int v, unsigned *state) {
+static Vec3 somewhere_near(const Cloth *c, int v) {
     const BodyFrame *f = &c->scene.posed;
-    return mesh_snap_point(vec_mad(f->position[v], f->normal[v], 0.01 * (random_unit(state) - 0.3)));
+    return mesh_snap_point(vec_mad(f->position[v], f->normal[v], 0.01 * (dice_unit() - 0.3)));
 }
 
-static void open_cloth(Cloth *c, unsigned *state) {
+static void open_cloth(Cloth *c) {
     Scene *s = &c->scene;
     Pose rest = figure_rest_pose();
     scene_open(s, "tshirt");
@@ -37,7 +33,7 @@ static void open_cloth(Cloth *c, unsigned *state) {
     need(s, c->position && c->other);
     need(s, tester_reserve(&c->moved, c->skin->nedges, c->skin->ntriangles, &s->arena, &s->error));
     need(s, tester_reserve(&c->anew, c->skin->nedges, c->skin->ntriangles, &s->arena, &s->error));
-    for (int v = 0; v < c->skin->nvertices; v++) c->position[v] = somewhere_near(c, v, state);
+    for (int v = 0; v < c->skin->nvertices; v++) c->position[v] = somewhere_near(c, v);
 }
 
 typedef struct { Residual own, other; CrossingCount count; } Found;
@@ -66,17 +62,17 @@ static bool same_found(const Found *a, const Found *b) {
 }
 
 /* Moves `most` vertices, some of them to where they are, again and again. */
-static void move_some(Cloth *c, int most, unsigned *state) {
+static void move_some(Cloth *c, int most) {
     enum { TIMES = 6, MOST = 2000 };
     static int vertex[MOST];
     static Vec3 to[MOST];
     int wrong = 0, hits = 0, n = c->skin->nvertices;
     Found f = find(c, &c->moved, c->position);
     for (int k = 0; k < TIMES; k++) {
-        int step = n / most, first = (int)(random_unit(state) * step);
+        int step = n / most, first = (int)(dice_unit() * step);
         for (int i = 0; i < most; i++) {
             vertex[i] = first + i * step;
-            to[i] = i % 5 ? somewhere_near(c, vertex[i], state) : c->position[vertex[i]];
+            to[i] = i % 5 ? somewhere_near(c, vertex[i]) : c->position[vertex[i]];
         }
         tester_move(&c->moved, &c->scene.posed, c->parts, vertex, to, most, &f.own, &f.other, &f.count);
         memcpy(c->other, c->position, (size_t)n * sizeof *c->other);
@@ -96,11 +92,10 @@ static void move_some(Cloth *c, int most, unsigned *state) {
 
 int main(void) {
     Cloth c = {.parts = 0};
-    unsigned state = 1;
-    open_cloth(&c, &state);
-    move_some(&c, 1, &state);
-    move_some(&c, 20, &state);
-    move_some(&c, 700, &state);
+    open_cloth(&c);
+    move_some(&c, 1);
+    move_some(&c, 20);
+    move_some(&c, 700);
     arena_free(&c.scene.arena);
     return tap_done();
 }

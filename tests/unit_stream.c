@@ -3,29 +3,23 @@
 #include "motion/stream.h"
 
 #include <fcntl.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "dice.h"
 #include "folder.h"
 #include "tap.h"
-
-static unsigned long long state = 88172645463325252ull;
-
-static unsigned long long dice(unsigned long long n) {
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return (state >> 11) % n;
-}
 
 /* A number as exporters write them, and some as nobody does. */
 static int write_number(char *out) {
     static const char *const formats[] = {"%.6f", "%g", "%.15g", "%.17g", "%.3e", "%.0f.", "%.20f", "%+.12f"};
-    double x = ((double)dice(1ull << 53) / (double)(1ull << 52) - 1) * pow(10, (double)dice(24) - 12);
-    if (dice(50) == 0)
-        return sprintf(out, "-.%018llu%018lluE%+d", dice(1ull << 52), dice(1ull << 52), (int)dice(600) - 595);
-    return sprintf(out, formats[dice(8)], x);
+    double x = (2 * dice_unit() - 1) * pow(10, (int)dice_below(24) - 12);
+    if (dice_below(50) == 0)
+        return sprintf(out, "-.%018" PRIu64 "%018" PRIu64 "E%+d", dice_bits() >> 12, dice_bits() >> 12,
+                       (int)dice_below(600) - 595);
+    return sprintf(out, formats[dice_below(8)], x);
 }
 
 typedef struct {
@@ -125,7 +119,7 @@ static void test_marks(void) {
         for (int k = 0; k < 300 && good; k++) good = stream_number(&s.stream, &x) == NUMBER_OK && (int)x == 300 * i + k;
     }
     for (int k = 0; k < 200 && good; k++) {
-        int i = (int)dice(100);
+        int i = (int)dice_below(100);
         stream_seek(&s.stream, mark[i]);
         good = stream_number(&s.stream, &x) == NUMBER_OK && (int)x == 300 * i && s.stream.line == 300 * i + 1;
     }

@@ -7,18 +7,13 @@
 #include <string.h>
 
 #include "base/digest.h"
+#include "dice.h"
 #include "tap.h"
-
-static uint64_t seed = 88172645463325252u;
-static uint64_t next(void) {
-    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
-    return seed;
-}
 
 /* Any finite double there is. */
 static double any_double(void) {
     for (;;) {
-        uint64_t bits = next();
+        uint64_t bits = dice_bits();
         double x;
         memcpy(&x, &bits, sizeof x);
         if (isfinite(x)) return x;
@@ -62,7 +57,7 @@ static void numbers_are_written(void) {
     char text[TEXT_SHORTEST], shorter[400];
     int wrong = 0, wasted = 0;
     for (int k = 0; k < 100000; k++) {
-        double x = k % 2 ? any_double() : (double)(next() % 1000000) / 1000;
+        double x = k % 2 ? any_double() : (double)(dice_bits() % 1000000) / 1000;
         wrong += strtod(text_shortest(x, text), NULL) != x;
         int n = digits_of(text);
         if (n < 2) continue;

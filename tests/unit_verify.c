@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "dress/border.h"
+#include "dice.h"
 #include "tap.h"
 
 enum { ROOM = 20000 };
@@ -265,15 +266,8 @@ static void test_border(void) {
     OK(good && v.cracks == 1 && kinds[FINDING_CRACK] == 1, "and is told");
 }
 
-/* From 0 to 1. */
-static double chance(unsigned long long *seed) {
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 40) / 0x1p24;
-}
-
 /* Half of them on a small grid, so that they touch in every way. */
 static void test_heap(void) {
-    unsigned long long seed = 1;
     int wrong = 0, some = 0, kinds[3] = {0};
     for (int round = 0; round < 60; round++) {
         Mesh m[2] = {empty(), empty()};
@@ -282,7 +276,7 @@ static void test_heap(void) {
                 for (int c = 0; c < 3; c++) {
                     double x[3];
                     for (int i = 0; i < 3; i++) {
-                        x[i] = chance(&seed);
+                        x[i] = dice_unit();
                         if (round & 1) x[i] = floor(8 * x[i]);
                     }
                     put(&m[k], x[0], x[1], x[2]);
@@ -308,17 +302,16 @@ static void test_nearest(void) {
     Error e = {0};
     Mesh m = empty();
     BoxTree tree;
-    unsigned long long seed = 7;
     double x[9], worst = 0;
     int lost = 0;
     for (int t = 0; t < 500; t++) {
-        for (int i = 0; i < 9; i++) x[i] = chance(&seed);
+        for (int i = 0; i < 9; i++) x[i] = dice_unit();
         for (int c = 0; c < 9; c += 3) put(&m, x[0] + 0.2 * x[c], x[1] + 0.2 * x[c + 1], x[2] + 0.2 * x[c + 2]);
         face(&m, 3 * t, 3 * t + 1, 3 * t + 2);
     }
     OK(boxtree_build(&tree, m.position, m.triangle, NULL, m.ntriangles, &arena, &e), "a tree over 500 triangles");
     for (int k = 0; k < 500; k++) {
-        for (int i = 0; i < 3; i++) x[i] = chance(&seed);
+        for (int i = 0; i < 3; i++) x[i] = dice_unit();
         Vec3 p = vec(x[0], x[1], x[2]);
         double least = INFINITY;
         int found = 0, all = 0;
