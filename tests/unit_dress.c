@@ -3,37 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dress/border.h"
-#include "dress/follow.h"
-#include "dress/tessellate.h"
+#include "cloth.h"
 #include "dice.h"
-#include "scene.h"
+#include "dress/border.h"
 
 static const char *const SHIPPED[] = {"skirt", "paper-skirt", "trousers", "tshirt"};
 enum { NSHIPPED = 4, DETAIL = 4, DEPTH = 2 };
-
-/* A scene, and what its garment is made of. */
-typedef struct {
-    Scene scene;
-    Fit fit;
-    Lattice lattice;
-    Leaves leaves;
-    Sheet sheet;
-    Patch *root;
-    Follower follower;
-} Cloth;
-
-static void open_cloth(Cloth *c, const char *name) {
-    Scene *s = &c->scene;
-    scene_open(s, name);
-    need(s, fit_garment(s->garment, &s->figure, &s->body, &s->arena, &c->fit, &s->error));
-    need(s, lattice_build(&c->fit, DETAIL, DEPTH, &s->arena, &c->lattice, &s->error));
-    need(s, leaves_reserve(&c->leaves, &c->lattice, &s->arena, &s->error));
-    need(s, sheet_reserve(&c->sheet, &c->lattice, &s->arena, &s->error));
-    need(s, follow_reserve(&c->follower, &c->fit, &s->figure, &s->body, &s->arena, &s->error));
-    c->root = ARENA_NEW(&s->arena, Patch, c->fit.npatches, &s->error);
-    need(s, c->root != NULL);
-}
 
 /* Every bone turned a little about its start, children with their parents' turn left out: enough
    to make all control points move differently. */
@@ -254,7 +229,7 @@ int main(void) {
     static const int openings[NSHIPPED] = {2, 2, 3, 4};
     for (int k = 0; k < NSHIPPED; k++) {
         static Cloth c;
-        open_cloth(&c, SHIPPED[k]);
+        cloth_open(&c, SHIPPED[k], DETAIL, DEPTH);
         shared_points_are_equal(&c, SHIPPED[k]);
         field_is_smooth(&c, SHIPPED[k]);
         meshes_are_watertight(&c, SHIPPED[k], openings[k]);

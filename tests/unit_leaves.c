@@ -1,9 +1,9 @@
 /* Leaves as patches of their own: they are the surface that the mesh samples, control points and all. */
 #include <string.h>
 
-#include "dress/push.h"
+#include "cloth.h"
 #include "dice.h"
-#include "scene.h"
+#include "dress/push.h"
 
 static void split_at_random(Leaves *leaves, int npatches) {
     leaves_fill(leaves, 0);
@@ -62,62 +62,57 @@ static void sheet_is_the_surface(const char *name, Push *push, const Leaves *lea
 }
 
 static void leaves_are_the_surface(const char *name) {
-    Scene s;
-    Fit fit;
-    Lattice lattice;
-    Leaves leaves;
+    Cloth c;
     Push push;
-    Sheet sheet;
-    scene_open(&s, name);
-    need(&s, fit_garment(s.garment, &s.figure, &s.body, &s.arena, &fit, &s.error));
-    need(&s, lattice_build(&fit, 4, 3, &s.arena, &lattice, &s.error));
-    need(&s, leaves_reserve(&leaves, &lattice, &s.arena, &s.error));
-    need(&s, push_reserve(&push, &lattice, &s.arena, &s.error));
-    need(&s, sheet_reserve(&sheet, &lattice, &s.arena, &s.error));
-    Patch *root = ARENA_NEW(&s.arena, Patch, fit.npatches, &s.error);
-    need(&s, root != NULL);
-    for (int p = 0; p < fit.npatches; p++)
+    cloth_open(&c, name, 4, 3);
+    Scene *s = &c.scene;
+    Leaves *leaves = &c.leaves;
+    const Lattice *lattice = &c.lattice;
+    const Sheet *sheet = &c.sheet;
+    Patch *root = c.root;
+    int npatches = c.fit.npatches;
+    need(s, push_reserve(&push, lattice, &s->arena, &s->error));
+    for (int p = 0; p < npatches; p++)
         for (int k = 0; k < 16; k++) root[p].p[k / 4][k % 4] = dice_point();
-    split_at_random(&leaves, fit.npatches);
-    for (int level = 0; level <= lattice.depth; level++)
-        for (int v = 0; v < lattice.level[level].count; v++)
-            if (is_open(&leaves, level, v))
-                push.field.displacement[push.field.start[level] + v] = dice_point();
+    split_at_random(leaves, npatches);
+    for (int level = 0; level <= lattice->depth; level++)
+        for (int v = 0; v < lattice->level[level].count; v++)
+            if (is_open(leaves, level, v)) push.field.displacement[push.field.start[level] + v] = dice_point();
     double worst = 0;
-    int n = 0, cells = 1 << lattice.depth;
-    for (int p = 0; p < fit.npatches; p++)
+    int n = 0, cells = 1 << lattice->depth;
+    for (int p = 0; p < npatches; p++)
         for (int x = 0; x < cells; x++)
             for (int y = 0; y < cells; y++) {
-                int level = leaf_at(&leaves, p, x, y), shift = lattice.depth - level;
+                int level = leaf_at(leaves, p, x, y), shift = lattice->depth - level;
                 if (level < 0) continue;
                 Patch leaf = field_leaf(&push.field, root, (LatticeCell){p, x >> shift, y >> shift}, level);
-                int size = lattice.side >> level, step = size / 4;
+                int size = lattice->side >> level, step = size / 4;
                 for (int i = 0; i <= size; i += step)
                     for (int j = 0; j <= size; j += step, n++) {
                         Vec3 a = bezier_point(&leaf, (double)i / size, (double)j / size, NULL, NULL);
-                        Vec3 b = surface(&push, root, p, x * lattice.detail + i, y * lattice.detail + j);
+                        Vec3 b = surface(&push, root, p, x * lattice->detail + i, y * lattice->detail + j);
                         worst = fmax(worst, vec_dist(a, b));
                     }
             }
-    OK(n >= 25 * leaves_count(&leaves) && worst < 1e-13, "%s: %d leaves are the surface itself (%.1e)", name,
-       leaves_count(&leaves), worst);
+    OK(n >= 25 * leaves_count(leaves) && worst < 1e-13, "%s: %d leaves are the surface itself (%.1e)", name,
+       leaves_count(leaves), worst);
 
-    sheet_is_the_surface(name, &push, &leaves, root, &sheet);
-    Edge *border = ARENA_NEW(&s.arena, Edge, 2 * sheet.nedges, &s.error);
-    int *seen = ARENA_NEW(&s.arena, int, sheet.nvertices, &s.error), lost = 0;
-    need(&s, border && seen);
-    int count = sheet_borders(&sheet, &leaves, border);
+    sheet_is_the_surface(name, &push, leaves, root, &c.sheet);
+    Edge *border = ARENA_NEW(&s->arena, Edge, 2 * sheet->nedges, &s->error);
+    int *seen = ARENA_NEW(&s->arena, int, sheet->nvertices, &s->error), lost = 0;
+    need(s, border && seen);
+    int count = sheet_borders(sheet, leaves, border);
     bool sound = true;
     for (int k = 0; k < count; k++) {
         seen[border[k].v[0]] = seen[border[k].v[1]] = 1;
         sound = sound && border[k].v[0] < border[k].v[1];
         if (k) sound = sound && memcmp(&border[k - 1], &border[k], sizeof(Edge)) != 0;
     }
-    for (int p = 0; p < fit.npatches; p++)
-        for (int c = 0; c < 4; c++)
-            lost += !seen[sheet.vertex[lattice_place(&lattice, p, c / 2 * lattice.side, c % 2 * lattice.side)]];
+    for (int p = 0; p < npatches; p++)
+        for (int k = 0; k < 4; k++)
+            lost += !seen[sheet->vertex[lattice_place(lattice, p, k / 2 * lattice->side, k % 2 * lattice->side)]];
     OK(sound && lost == 0, "%s: %d edges on borders, each once, and every corner of a patch on them", name, count);
-    arena_free(&s.arena);
+    arena_free(&s->arena);
 }
 
 /* A thigh raised into the skirt: all but the vertices with offsets lie on the leaves. */

@@ -2,9 +2,8 @@
    must not change. */
 #include <string.h>
 
-#include "dress/follow.h"
+#include "cloth.h"
 #include "dress/push.h"
-#include "scene.h"
 
 static int residual(const FrameStats *s) { return s->residual_edges + s->residual_cloth + s->inside; }
 
@@ -127,39 +126,25 @@ static double most_needless(const Push *p, const BodyFrame *body) {
 
 /* Cloth that was pushed touches what pushed it, though its neighbours were pushed after it and took it along. */
 static void nothing_is_needless(const char *name) {
-    Scene s;
-    scene_open(&s, name);
-    Fit fit;
-    Lattice lattice;
-    Leaves leaves;
-    Sheet sheet;
-    Follower follower;
+    Cloth c;
     static Push push;
     PushResult result = {0};
-    need(&s, fit_garment(s.garment, &s.figure, &s.body, &s.arena, &fit, &s.error));
-    need(&s, follow_reserve(&follower, &fit, &s.figure, &s.body, &s.arena, &s.error));
-    need(&s, lattice_build(&fit, 5, 2, &s.arena, &lattice, &s.error));
-    need(&s, leaves_reserve(&leaves, &lattice, &s.arena, &s.error));
-    need(&s, sheet_reserve(&sheet, &lattice, &s.arena, &s.error));
-    need(&s, push_reserve(&push, &lattice, &s.arena, &s.error));
-    Patch *root = ARENA_NEW(&s.arena, Patch, fit.npatches, &s.error);
-    need(&s, root != NULL);
+    cloth_open(&c, name, 5, 2);
+    Scene *s = &c.scene;
+    need(s, push_reserve(&push, &c.lattice, &s->arena, &s->error));
+    escape_bind(&push.escape, c.root);
     Pose pose = figure_rest_pose();
-    follow_pose(&follower, &pose, root);
-    escape_bind(&push.escape, root);
-    scene_leg(&s, &pose, true, 100, 110);
-    body_frame_pose(&s.posed, &pose);
-    follow_pose(&follower, &pose, root);
-    leaves_fill(&leaves, lattice.depth);
-    tessellate(&sheet, &leaves);
+    scene_leg(s, &pose, true, 100, 110);
+    body_frame_pose(&s->posed, &pose);
+    follow_pose(&c.follower, &pose, c.root);
     push.coarser = 1;
-    push_start(&push, root, &leaves, &sheet);
-    push_solve(&push, &s.posed, &sheet, &result);
-    push_measure(&push, &s.posed, &sheet, &result);
-    double needless = most_needless(&push, &s.posed);
+    push_start(&push, c.root, &c.leaves, &c.sheet);
+    push_solve(&push, &s->posed, &c.sheet, &result);
+    push_measure(&push, &s->posed, &c.sheet, &result);
+    double needless = most_needless(&push, &s->posed);
     OK(result.displacement > 0.01 && needless < 0.001, "%s: moved %.1f mm, no more than %.1f mm of it needless", name,
        1e3 * result.displacement, 1e3 * needless);
-    arena_free(&s.arena);
+    arena_free(&s->arena);
 }
 
 int main(void) {
