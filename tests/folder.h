@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 static char folder[] = "/tmp/kitsuke-unit-XXXXXX";
@@ -28,6 +29,18 @@ static inline const char *in_folder(const char *name) {
     turn = !turn;
     snprintf(path[turn], sizeof path[turn], "%s/%s", folder, name);
     return path[turn];
+}
+
+/* Puts a file of `size` bytes, or one of a text, into the folder; returns its path, which is as good. */
+static inline const char *folder_put(const char *name, const char *bytes, size_t size) {
+    const char *path = in_folder(name);
+    FILE *f = fopen(path, "wb");
+    if (!f || fwrite(bytes, 1, size, f) != size) printf("Bail out! cannot write %s\n", path);
+    if (f) fclose(f);
+    return path;
+}
+static inline const char *folder_put_text(const char *name, const char *text) {
+    return folder_put(name, text, strlen(text));
 }
 
 /* A link in the folder to a device. Tests write to the link: as root a broken writer would

@@ -34,12 +34,6 @@
 
 static Session session;
 
-static void put(const char *name, const char *text) {
-    FILE *f = fopen(in_folder(name), "wb");
-    if (!f || fputs(text, f) < 0) printf("Bail out! cannot write %s\n", name);
-    if (f) fclose(f);
-}
-
 static bool same(const double *a, const double *b, int n) {
     for (int i = 0; i < n; i++)
         if (!(fabs(a[i] - b[i]) <= 1e-12)) return printf("# value %d is %.17g\n", i, a[i]), false;
@@ -47,8 +41,8 @@ static bool same(const double *a, const double *b, int n) {
 }
 
 static void test_skeleton(void) {
-    put("pair.asf", ASF);
-    put("pair.amc", FIRST NEXT);
+    folder_put_text("pair.asf", ASF);
+    folder_put_text("pair.amc", FIRST NEXT);
     Session *s = &session;
     bool good = session_open(s, in_folder("pair.amc"), (MotionOptions){0});
     const Skeleton *k = &s->motion.skeleton;
@@ -85,9 +79,9 @@ static void test_skeleton(void) {
 }
 
 static void test_units(void) {
-    put("rad.asf", ":units\n angle rad\n length 1\n" ROOT ":bonedata\n begin\n name a\n direction 1 0 0\n length 1\n"
+    folder_put_text("rad.asf", ":units\n angle rad\n length 1\n" ROOT ":bonedata\n begin\n name a\n direction 1 0 0\n length 1\n"
                    " axis 0 0 1.5707963267948966 XYZ\n dof rx\n end\n:hierarchy\n begin\n root a\n end\n");
-    put("rad.amc", "1\nroot 0 0 0 0 0 1\na 0.5\n");
+    folder_put_text("rad.amc", "1\nroot 0 0 0 0 0 1\na 0.5\n");
     Session *s = &session;
     bool good = session_open(s, in_folder("rad.amc"), (MotionOptions){.fps = 60}) && session_row(s, 0);
     const double row[] = {0, 0, 0, 180 / PI, 0, 0, 90 / PI};
@@ -97,7 +91,7 @@ static void test_units(void) {
     Vec3 turned = mat_apply(s->motion.skeleton.joint[1].axis, vec(1, 0, 0));
     NEAR(vec_dist(turned, vec(0, 1, 0)), 0, 1e-15, "also of an axis");
     session_close(s);
-    put("rad.amc", ":DEGREES\n1\nroot 0 0 0 0 0 1\na 0.5\n");
+    folder_put_text("rad.amc", ":DEGREES\n1\nroot 0 0 0 0 0 1\na 0.5\n");
     good = session_open(s, in_folder("rad.amc"), (MotionOptions){0}) && session_row(s, 0);
     OK(good && s->row[6] == 0.5, "the motion's own word on angles counts more");
     session_close(s);
@@ -173,14 +167,14 @@ static bool as_wanted(const Case *c) {
 }
 
 static void test_cases(void) {
-    put("case.asf", ASF);
+    folder_put_text("case.asf", ASF);
     for (size_t i = 0; i < sizeof motions / sizeof *motions; i++) {
-        put("case.amc", motions[i].text);
+        folder_put_text("case.amc", motions[i].text);
         OK(as_wanted(&motions[i]), "motion: %s", motions[i].what);
     }
-    put("case.amc", FIRST);
+    folder_put_text("case.amc", FIRST);
     for (size_t i = 0; i < sizeof skeletons / sizeof *skeletons; i++) {
-        put("case.asf", skeletons[i].text);
+        folder_put_text("case.asf", skeletons[i].text);
         OK(as_wanted(&skeletons[i]), "skeleton: %s", skeletons[i].what);
     }
 }
@@ -191,7 +185,7 @@ static void put_skeleton(const char *name, double length) {
     snprintf(text, sizeof text,
              HEAD ROOT ":bonedata\n begin\n name a\n direction 1 0 0\n length %g\n axis 0 0 0 XYZ\n dof rx\n end\n"
                        ":hierarchy\n root a\n", length);
-    put(name, text);
+    folder_put_text(name, text);
 }
 
 static void test_found(const char *amc, double length, const char *why) {

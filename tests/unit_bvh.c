@@ -148,17 +148,9 @@ static const Case heads[] = {
     {"another format", "solid cube\n", 0, "neither BVH nor Acclaim AMC: starts with 'solid'", 1, 1, 0},
 };
 
-/* `text` as a file; the path is good until the next. */
-static const char *file_of(const char *text, size_t size) {
-    static char path[64];
-    snprintf(path, sizeof path, "%s/motion.bvh", folder);
-    FILE *f = fopen(path, "wb");
-    if (!f || fwrite(text, 1, size, f) != size) printf("Bail out! cannot write %s\n", path);
-    if (f) fclose(f);
-    return path;
-}
-
 static Session session;
+
+static const char *file_of(const char *text, size_t size) { return folder_put("motion.bvh", text, size); }
 
 static bool as_wanted(const Case *c, const char *text, size_t size) {
     Session *s = &session;

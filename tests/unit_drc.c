@@ -100,13 +100,6 @@ static size_t load(const char *path, char *data, size_t n) {
     return got;
 }
 
-static void save(const char *path, const char *data, size_t n) {
-    FILE *f = fopen(path, "wb");
-    if (!f) return;
-    fwrite(data, 1, n, f);
-    fclose(f);
-}
-
 /* A writer that has written much else, and a new one. */
 static void test_same_bytes(void) {
     static Sheet sheet;
@@ -146,7 +139,7 @@ static void test_refusals(void) {
     e = (Error){0};
     OK(!drc_read(folder, &arena, &m, &e) && e.kind == ERR_INPUT, "a folder: %s", e.text);
     e = (Error){0};
-    save(in_folder("text.drc"), "solid text\n", 11);
+    folder_put("text.drc", "solid text\n", 11);
     OK(!drc_read(in_folder("text.drc"), &arena, &m, &e) && e.kind == ERR_INPUT, "a text: %s", e.text);
     arena_free(&arena);
 }
@@ -159,7 +152,7 @@ static void test_cut(void) {
     for (size_t k = 0; k < n; k += k < 64 ? 1 : 37, tried++) {
         Error e = {0};
         Mesh m;
-        save(in_folder("cut.drc"), data, k);
+        folder_put("cut.drc", data, k);
         if (!drc_read(in_folder("cut.drc"), &arena, &m, &e) && e.kind == ERR_INPUT) refused++;
         arena_reset(&arena);
     }

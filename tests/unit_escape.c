@@ -24,11 +24,7 @@ static void wear(Worn *w, const char *name) {
     body_frame_pose(&s->posed, &rest);
 }
 
-static int part_of(const Worn *w, Role role) {
-    int part = 0;
-    while (w->cloth.scene.body.part[part].role != role) part++;
-    return part;
-}
+static int part_of(const Worn *w, Role role) { return w->cloth.scene.body.of_role[role]; }
 
 /* The left forearm goes so far, the world's axes, metres; the garment does not follow. */
 static void carry_forearm(Worn *w, Vec3 by) {

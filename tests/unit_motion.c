@@ -19,15 +19,7 @@
 
 static Session session;
 
-/* `text` as a file; the path is good until the next. */
-static const char *file_of(const char *text, size_t size) {
-    static char path[64];
-    snprintf(path, sizeof path, "%s/motion.bvh", folder);
-    FILE *f = fopen(path, "wb");
-    if (!f || fwrite(text, 1, size, f) != size) printf("Bail out! cannot write %s\n", path);
-    if (f) fclose(f);
-    return path;
-}
+static const char *file_of(const char *text, size_t size) { return folder_put("motion.bvh", text, size); }
 
 /* A long file whose value 4 f + i stands in frame f, channel i. */
 static const char *long_file(int frames) {

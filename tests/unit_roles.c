@@ -216,18 +216,12 @@ static void test_names(void) {
     }
 }
 
-static void write_text(const char *path, const char *text) {
-    FILE *f = fopen(path, "w");
-    fputs(text, f);
-    fclose(f);
-}
-
 static void test_refused(void) {
-    const char *path = in_folder("chain.bvh");
     Rig r;
-    write_text(path, "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Xrotation Yrotation Zrotation\n"
-                     "JOINT b\n{\nOFFSET 0 1 0\nCHANNELS 3 Xrotation Yrotation Zrotation\n"
-                     "End Site\n{\nOFFSET 0 1 0\n}\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0 0 0 0\n");
+    const char *path =
+        folder_put_text("chain.bvh", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Xrotation Yrotation Zrotation\n"
+                                     "JOINT b\n{\nOFFSET 0 1 0\nCHANNELS 3 Xrotation Yrotation Zrotation\n"
+                                     "End Site\n{\nOFFSET 0 1 0\n}\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0 0 0 0\n");
     bool good = rig_roles(&r, path, NULL);
     OK(!good && r.e.kind == ERR_INPUT, "a chain is refused");
     int named = 0;
@@ -321,9 +315,8 @@ static void test_oddities(void) {
 
 /* A role file against the biped. */
 static void test_file(const char *text, const char *wanted, int line, int column) {
-    const char *path = in_folder("roles");
     Rig r;
-    write_text(path, text);
+    const char *path = folder_put_text("roles", text);
     bool good = rig_roles(&r, "tests/data/figure/biped.bvh", path);
     if (!wanted) {
         OK(good, "accepted: %.30s", text);
@@ -338,9 +331,8 @@ static void test_file(const char *text, const char *wanted, int line, int column
 
 /* Half the letters wrong are no slip of the finger. */
 static void test_far_off(void) {
-    const char *path = in_folder("roles");
     Rig r;
-    write_text(path, "tail = Bip01 Head\n");
+    const char *path = folder_put_text("roles", "tail = Bip01 Head\n");
     OK(!rig_roles(&r, "tests/data/figure/biped.bvh", path) && !strstr(r.e.text, "did you mean"),
        "what is near to nothing is not guessed");
     rig_close(&r);
@@ -348,22 +340,22 @@ static void test_far_off(void) {
 
 /* Whose left is told by hand needs no warning that it was a guess. */
 static void test_told_sides(void) {
-    const char *path = in_folder("roles"), *nameless = "tests/data/figure/nameless.bvh";
+    const char *nameless = "tests/data/figure/nameless.bvh";
     Rig r;
     char text[200];
     OK(rig_roles(&r, nameless, NULL) && r.notes.count == 1, "nameless limbs: a note that left was guessed");
     snprintf(text, sizeof text, "left_thigh = %s\nright_thigh = %s\n", rig_joint(&r, ROLE_LEFT_THIGH),
              rig_joint(&r, ROLE_RIGHT_THIGH));
     rig_close(&r);
-    write_text(path, text);
-    OK(rig_roles(&r, nameless, path) && r.notes.count == 0, "no note where the role file tells");
+    OK(rig_roles(&r, nameless, folder_put_text("roles", text)) && r.notes.count == 0,
+       "no note where the role file tells");
     rig_close(&r);
 }
 
 static void test_role_files(void) {
     Rig r;
-    const char *path = in_folder("roles");
-    write_text(path, "# by hand\nchest = Bip01 Spine1   # names with blanks\nneck=none\n\n  left_toe   =   none\n");
+    const char *path = folder_put_text("roles", "# by hand\nchest = Bip01 Spine1   # names with blanks\nneck=none\n\n"
+                                                "  left_toe   =   none\n");
     OK(rig_roles(&r, "tests/data/figure/biped.bvh", path), "a role file is read");
     OK(strcmp(rig_joint(&r, ROLE_CHEST), "Bip01 Spine1") == 0, "it settles the chest");
     OK(r.roles.joint[ROLE_NECK] < 0 && r.roles.joint[ROLE_LEFT_TOE] < 0, "'none' removes a role");
