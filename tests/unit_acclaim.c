@@ -79,8 +79,9 @@ static void test_skeleton(void) {
 }
 
 static void test_units(void) {
-    folder_put_text("rad.asf", ":units\n angle rad\n length 1\n" ROOT ":bonedata\n begin\n name a\n direction 1 0 0\n length 1\n"
-                   " axis 0 0 1.5707963267948966 XYZ\n dof rx\n end\n:hierarchy\n begin\n root a\n end\n");
+    folder_put_text("rad.asf", ":units\n angle rad\n length 1\n" ROOT
+                               ":bonedata\n begin\n name a\n direction 1 0 0\n length 1\n"
+                               " axis 0 0 1.5707963267948966 XYZ\n dof rx\n end\n:hierarchy\n begin\n root a\n end\n");
     folder_put_text("rad.amc", "1\nroot 0 0 0 0 0 1\na 0.5\n");
     Session *s = &session;
     bool good = session_open(s, in_folder("rad.amc"), (MotionOptions){.fps = 60}) && session_row(s, 0);
@@ -189,7 +190,7 @@ static void put_skeleton(const char *name, double length) {
 }
 
 static void test_found(const char *amc, double length, const char *why) {
-    put(amc, "1\nroot 0 0 0 0 0 0\na 1\n");
+    folder_put_text(amc, "1\nroot 0 0 0 0 0 0\na 1\n");
     bool good = session_open(&session, in_folder(amc), (MotionOptions){0});
     double found = good ? session.motion.skeleton.joint[2].offset.x : 0;
     OK(found == length, "%s: %s %s", amc, why, session.e.text);

@@ -217,12 +217,12 @@ static void test_names(void) {
 }
 
 static void test_refused(void) {
+    static const char chain[] = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Xrotation Yrotation Zrotation\n"
+                                "JOINT b\n{\nOFFSET 0 1 0\nCHANNELS 3 Xrotation Yrotation Zrotation\n"
+                                "End Site\n{\nOFFSET 0 1 0\n}\n}\n}\n"
+                                "MOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0 0 0 0\n";
     Rig r;
-    const char *path =
-        folder_put_text("chain.bvh", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Xrotation Yrotation Zrotation\n"
-                                     "JOINT b\n{\nOFFSET 0 1 0\nCHANNELS 3 Xrotation Yrotation Zrotation\n"
-                                     "End Site\n{\nOFFSET 0 1 0\n}\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0 0 0 0\n");
-    bool good = rig_roles(&r, path, NULL);
+    bool good = rig_roles(&r, folder_put_text("chain.bvh", chain), NULL);
     OK(!good && r.e.kind == ERR_INPUT, "a chain is refused");
     int named = 0;
     for (int role = 0; role < ROLE_COUNT; role++) named += strstr(r.e.text, role_name((Role)role)) != NULL;
