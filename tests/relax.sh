@@ -9,9 +9,9 @@ limbs() { # frames in which a limb goes through the garment
     column limb_frames "$1/summary.csv" | tr '\n' ' '
 }
 
-# The paper's walk; in its middle the arms come in by 20 degrees and go out again.
+# The paper's walk; in its middle the arms come in by 25 degrees and go out again.
 awk '/^Frame Time/ { print; rows = 1; next } !rows { print; next }
-    { d = k++ - 36; d = 20 - (d < 0 ? -d : d); if (d < 0) d = 0
+    { d = k++ - 36; d = 25 - (d < 0 ? -d : d); if (d < 0) d = 0
       sub(/ -73\.0000 /, sprintf(" %.4f ", -73 - d)); sub(/ 73\.0000 /, sprintf(" %.4f ", 73 + d)); print }' \
     "$root/motions/paper-walk.bvh" >near.bvh
 thinned() { # every N-th row of a motion

@@ -43,4 +43,8 @@ double escape_way(const Escape *s, const BodyFrame *body, EscapePoint *p, int pa
 /* The same for its clearance, or as far as there is room. 0: it may stay. */
 double escape_asked(const Escape *s, const BodyFrame *body, EscapePoint *p, int part, double distance, Vec3 *n);
 
+/* How far cloth of a place may go from `at` along n (unit), at most that far, and keep its clearance from what it is
+   worn over; metres. */
+double escape_free(const Escape *s, const BodyFrame *body, int place, Vec3 at, double clearance, Vec3 n, double most);
+
 #endif

@@ -14,6 +14,9 @@ typedef struct {
     Vec3 *offset;                  /* per lattice place: the last millimetres of single vertices; */
     bool *has_offset;              /* whether it is one of those */
     int *moved, nmoved;            /* that have, or had, one */
+    Vec3 *dent;                    /* per lattice place: how far it is pressed in from outside, in this frame alone, */
+    bool *has_dent;
+    int *dented, ndented;          /* and the places that are */
     Mat3 pelvis;                   /* of the frame that the displacement belongs to */
 } Field;
 
@@ -38,6 +41,8 @@ Vec3 field_limit(Vec3 d, double cap, bool *capped);
 
 /* Moves a single vertex. */
 void field_set_offset(Field *f, int place, Vec3 offset);
+void field_set_dent(Field *f, int place, Vec3 dent);
+void field_drop_dents(Field *f);
 
 static inline bool field_is_zero(Vec3 d) { return d.x == 0 && d.y == 0 && d.z == 0; }
 

@@ -5,9 +5,10 @@
    half of the room. */
 #include "dress/escape.h"
 
-enum { STEPS_OUT = 6 };
+enum { STEPS_OUT = 6, STEPS_FREE = 8 };
 static const double CLOSE_ENOUGH = 0.1; /* share of the distance wanted that may be missing along a turned normal */
 static const double OPPOSITE = -0.2;    /* cosine: normals of parts between which cloth is squeezed */
+static const double SUNK = 0.01;        /* metres on 1.70 m: facets do not follow flesh that gives way by more */
 static const double WRONG_SIDE = 0.5;   /* cosine to the side at rest below which the normal is bent towards it */
 static const double OUTWARDS = 0.3;     /* cosine: a limb from outside that would push cloth this much out of itself
                                            pushes it straight in */
@@ -118,4 +119,26 @@ double escape_asked(const Escape *s, const BodyFrame *body, EscapePoint *p, int 
     if (p->clearance - distance <= least) return 0;
     double wanted = room_for(s, body, p, part, distance, *n);
     return wanted - distance <= least ? 0 : escape_way(s, body, p, part, wanted, distance, n);
+}
+
+/* Distances change no faster than the point moves, so the least of them is safe to go. What is left behind does not
+   count. */
+double escape_free(const Escape *s, const BodyFrame *body, int place, Vec3 at, double clearance, Vec3 n, double most) {
+    double way = 0, sunk = SUNK * figure_scale(body->body->height);
+    for (int step = 0; step < STEPS_FREE && way < most; step++) {
+        double room = most - way;
+        BodyPoint x;
+        body_point_move(&x, vec_mad(at, n, way));
+        for (int k = 0; k < body->body->nparts; k++) {
+            double far = room + clearance;
+            Vec3 m;
+            if (!(s->lattice->collide[place] & part_bit(body, k)) || body_frame_far(body, k, x.at, far)) continue;
+            double distance = body_point_distance(body, k, &x, far, &m);
+            if (distance >= far || vec_dot(m, n) >= 0) continue;
+            room = fmin(room, fmin(distance, body_point_unpressed(body, k, &x, far) + sunk) - clearance);
+        }
+        if (room <= CLOSE_ENOUGH * clearance) break;
+        way += room;
+    }
+    return way;
 }

@@ -18,13 +18,30 @@ bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e) {
     f->offset = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
     f->has_offset = ARENA_NEW(arena, bool, lattice->nplaces, e);
     f->moved = ARENA_NEW(arena, int, lattice->nplaces, e);
-    return f->displacement && f->offset && f->has_offset && f->moved;
+    f->dent = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
+    f->has_dent = ARENA_NEW(arena, bool, lattice->nplaces, e);
+    f->dented = ARENA_NEW(arena, int, lattice->nplaces, e);
+    return f->displacement && f->offset && f->has_offset && f->moved && f->dent && f->has_dent && f->dented;
 }
 
 void field_set_offset(Field *f, int place, Vec3 offset) {
     if (!f->has_offset[place]) f->moved[f->nmoved++] = place;
     f->has_offset[place] = true;
     f->offset[place] = offset;
+}
+
+void field_set_dent(Field *f, int place, Vec3 dent) {
+    if (!f->has_dent[place]) f->dented[f->ndented++] = place;
+    f->has_dent[place] = true;
+    f->dent[place] = dent;
+}
+
+void field_drop_dents(Field *f) {
+    for (int k = 0; k < f->ndented; k++) {
+        f->dent[f->dented[k]] = vec(0, 0, 0);
+        f->has_dent[f->dented[k]] = false;
+    }
+    f->ndented = 0;
 }
 
 static void drop_offset(Field *f, int place) {
@@ -36,12 +53,14 @@ void field_forget(Field *f) {
     memset(f->displacement, 0, (size_t)f->start[LATTICE_LEVELS] * sizeof *f->displacement);
     for (int k = 0; k < f->nmoved; k++) drop_offset(f, f->moved[k]);
     f->nmoved = 0;
+    field_drop_dents(f);
 }
 
 void field_copy(const Field *from, Field *to) {
     field_forget(to);
     memcpy(to->displacement, from->displacement, (size_t)from->start[LATTICE_LEVELS] * sizeof *to->displacement);
     for (int k = 0; k < from->nmoved; k++) field_set_offset(to, from->moved[k], from->offset[from->moved[k]]);
+    for (int k = 0; k < from->ndented; k++) field_set_dent(to, from->dented[k], from->dent[from->dented[k]]);
 }
 
 /* What happens to vectors that are carried along. */
@@ -75,6 +94,7 @@ void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leave
         if (carry(&f->offset[place], &c)) f->moved[f->nmoved++] = place;
         else drop_offset(f, place);
     }
+    field_drop_dents(f);
     f->pelvis = pelvis;
 }
 

@@ -82,8 +82,9 @@ static void find_mobility(Push *p, const Leaves *leaves) {
 /* A vertex displaced by d: never farther than the cap, whatever the levels add up to. */
 static Vec3 displaced(const Push *p, const Sheet *sheet, int vertex, Vec3 d) {
     bool capped = false;
-    return vec_add(p->global[vertex],
-                   field_limit(vec_add(d, p->field.offset[sheet->place[vertex]]), p->field.cap, &capped));
+    int place = sheet->place[vertex];
+    Vec3 own = vec_add(p->field.offset[place], p->field.dent[place]);
+    return vec_add(p->global[vertex], field_limit(vec_add(d, own), p->field.cap, &capped));
 }
 
 static void find_points(Push *p, const Sheet *sheet) {
@@ -289,6 +290,7 @@ void push_rest(Push *p, const Sheet *sheet) {
 }
 
 void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
+    field_drop_dents(&p->field);
     for (int round = 0; round < ROUNDS_MAX; round++) {
         find_samples(p, body, sheet);
         double moved = sweep_all(p, body, sheet, result);

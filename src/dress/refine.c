@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#include "geometry/boxtree.h"
+
 bool leaves_reserve(Leaves *leaves, const Lattice *lattice, Arena *arena, Error *e) {
     leaves->lattice = lattice;
     leaves->level = ARENA_NEW(arena, unsigned char, lattice_cells(lattice), e);
@@ -132,18 +134,31 @@ static void open_corners(const Classifier *c, int level, int ncells, Leaves *lea
         }
 }
 
-/* Lets the cloth give way to limbs that touch it from outside, which the rule knows nothing of: splits
-   the patches that have a corner of a deepest cell inside of one, once. */
+/* Parts from outside whose box touches a patch, bits 1 << role. */
+static unsigned limbs_at(const Lattice *l, const Patch *root, const BodyFrame *body, int patch) {
+    Box box = box_empty();
+    unsigned limbs = 0;
+    for (int k = 0; k < 16; k++) box_add(&box, root[patch].p[k / 4][k % 4]);
+    for (int k = 0; k < body->body->nparts; k++)
+        if (box_touches(box, body->box[k])) limbs |= part_bit(body, k);
+    return limbs & ~l->fit->patch[patch].collide;
+}
+
+/* Lets the cloth give way to limbs that touch it from outside, which the rule knows nothing of: splits root
+   patches once where one is inside of them. */
 static void open_to_limbs(const Classifier *c, const Patch *root, const BodyFrame *body, Leaves *leaves) {
+    enum { LEVEL = 1, STEP = 2 };
     const Lattice *l = c->lattice;
-    const LatticeStep *step = l->level[1].step;
-    for (int p = 0; p < l->fit->npatches; p++)
-        for (int i = 0; i <= l->side; i += l->detail)
-            for (int j = 0; j <= l->side; j += l->detail) {
+    const LatticeStep *step = l->level[LEVEL].step;
+    for (int p = 0; p < l->fit->npatches; p++) {
+        unsigned limbs = limbs_at(l, root, body, p);
+        for (int i = 0; limbs && i <= l->side; i += STEP)
+            for (int j = 0; j <= l->side; j += STEP) {
                 int place = lattice_place(l, p, i, j);
-                if (body_frame_inside(body, ~l->collide[place], lattice_point(l, root, place)))
-                    leaves_split(leaves, p, 1, step[i].cell, step[j].cell);
+                if (body_frame_inside(body, limbs & ~l->collide[place], lattice_point(l, root, place)))
+                    leaves_split(leaves, p, LEVEL, step[i].cell, step[j].cell);
             }
+    }
 }
 
 static int all_cells(const Lattice *l, int level, LatticeCell *out) {

@@ -10,13 +10,15 @@ static const double OFFSET_MAX = 0.03; /* longest offset: more would be a spike;
 bool settle_reserve(Settler *s, const Lattice *lattice, Arena *arena, Error *e) {
     *s = (Settler){.nraised = 0};
     s->raised = ARENA_NEW(arena, int, lattice->nplaces, e);
-    return s->raised != NULL;
+    return s->raised && dent_reserve(&s->denter, lattice, arena, e);
 }
 
-void settle_start(Settler *s) { s->nraised = s->nmarked = 0; }
+void settle_start(Settler *s) {
+    s->nraised = s->nmarked = 0;
+    dent_start(&s->denter);
+}
 
-/* Parts that lie within `far` of p: bits 1 << part. Also arms that touch a skirt, which dent it by single vertices:
-   coarse displacements for them and for the legs would fight. */
+/* Parts that lie within `far` of p: bits 1 << part. */
 static unsigned parts_near(const BodyFrame *body, BodyPoint *p, double far) {
     unsigned near = 0;
     for (int k = 0; k < body->body->nparts; k++)
@@ -24,16 +26,26 @@ static unsigned parts_near(const BodyFrame *body, BodyPoint *p, double far) {
     return near;
 }
 
-static void add_offset(Push *p, const Sheet *sheet, int vertex, Vec3 by, bool *capped) {
+static bool is_worn_over(const Push *p, const BodyFrame *body, int place, int part) {
+    return p->field.lattice->collide[place] & part_bit(body, part);
+}
+
+/* For a part that it is worn over a vertex gets an offset, for one from outside its hollow becomes deeper there. */
+static void move(const Settler *s, Push *p, const Sheet *sheet, int vertex, Vec3 by, bool is_worn, bool *capped) {
+    double most = OFFSET_MAX * p->field.scale;
+    if (!is_worn) {
+        dent_add(&s->denter, p, sheet, vertex, by, most, capped);
+        return;
+    }
     int place = sheet->place[vertex];
     Vec3 offset = p->field.offset[place];
-    Vec3 longer = field_limit(vec_add(offset, by), OFFSET_MAX * p->field.scale, capped);
+    Vec3 longer = field_limit(vec_add(offset, by), most, capped);
     p->point[vertex] = vec_add(p->point[vertex], vec_sub(longer, offset));
     field_set_offset(&p->field, place, longer);
 }
 
 /* The step that takes a vertex at `at` out of a part; false where there is none to take. From a part that comes from
-   outside, where the way into the garment is too far, it is the nearest one. */
+   outside, where the way into the garment is too far, it is the nearest one, and only as far as is free. */
 static bool step_out(const Push *p, const BodyFrame *body, EscapePoint *at, int part, Vec3 *step) {
     Vec3 n, plain;
     double distance = body_point_distance(body, part, &at->point, at->clearance, &plain);
@@ -41,16 +53,20 @@ static bool step_out(const Push *p, const BodyFrame *body, EscapePoint *at, int 
     n = plain;
     double way = escape_asked(&p->escape, body, at, part, distance, &n);
     if (way <= 0) return false;
-    if (!(p->field.lattice->collide[at->place] & part_bit(body, part)) && way > most) {
-        way = at->clearance - distance;
-        n = plain;
-        if (way > most) return false;
+    if (!is_worn_over(p, body, at->place, part)) {
+        if (way > most) {
+            way = at->clearance - distance;
+            n = plain;
+            if (way > most) return false;
+        }
+        way = escape_free(&p->escape, body, at->place, at->point.at, at->clearance, n, way);
     }
     *step = vec_scale(n, way);
-    return true;
+    return way > 0;
 }
 
-static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, bool *capped) {
+static void settle_vertex(const Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, int vertex,
+                          bool *capped) {
     const Near *seen = &p->near[vertex];
     if (near_slack(seen->least, p->clearance[vertex]) > vec_dist(p->point[vertex], seen->seen)) return;
     EscapePoint at;
@@ -62,19 +78,20 @@ static void settle_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, in
         for (int part = 0; at.near >> part; part++) {
             Vec3 by;
             if (!(at.near >> part & 1) || !step_out(p, body, &at, part, &by)) continue;
-            add_offset(p, sheet, vertex, by, capped);
+            move(s, p, sheet, vertex, by, is_worn_over(p, body, at.place, part), capped);
             body_point_move(&at.point, p->point[vertex]);
             moved = true;
         }
     }
 }
 
-void settle_all(Push *p, const BodyFrame *body, const Sheet *sheet, bool *capped) {
-    for (int v = 0; v < sheet->nvertices; v++) settle_vertex(p, body, sheet, v, capped);
+void settle_all(Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, bool *capped) {
+    dent_all(&s->denter, p, body, sheet);
+    for (int v = 0; v < sheet->nvertices; v++) settle_vertex(s, p, body, sheet, v, capped);
 }
 
 void settle_raised(const Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, bool *capped) {
-    for (int k = 0; k < s->nraised; k++) settle_vertex(p, body, sheet, s->raised[k], capped);
+    for (int k = 0; k < s->nraised; k++) settle_vertex(s, p, body, sheet, s->raised[k], capped);
 }
 
 static bool is_raised(const Push *p, int vertex) { return p->clearance[vertex] > PUSH_MARGIN * p->field.scale; }
@@ -87,12 +104,14 @@ bool settle_raise(Settler *s, Push *p, int vertex, double by, double most) {
     return true;
 }
 
-void settle_hit(Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit) {
+void settle_hit(Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit) {
     EscapePoint at;
     double norm2 = 0, clearance = PUSH_MARGIN * p->field.scale;
     int nearest = 0;
     bool capped = false;
     Vec3 x = {0, 0, 0}, n;
+    for (int c = 0; c < hit->n && p->field.lattice->fit->collide & part_bit(body, hit->part); c++)
+        dent_back(&s->denter, p, sheet, hit->v[c]);
     for (int c = 0; c < hit->n; c++) {
         if (!is_raised(p, hit->v[c])) return;
         x = vec_mad(x, p->point[hit->v[c]], hit->weight[c]);
@@ -104,14 +123,20 @@ void settle_hit(Push *p, const BodyFrame *body, const Sheet *sheet, const Tester
     escape_at(&at, sheet->place[hit->v[nearest]], x, clearance);
     double way = escape_way(&p->escape, body, &at, hit->part, clearance, distance, &n);
     if (way > OFFSET_MAX * p->field.scale) return; /* out of reach */
-    for (int c = 0; c < hit->n; c++)
-        add_offset(p, sheet, hit->v[c], vec_scale(n, way * hit->weight[c] / norm2), &capped);
+    bool is_worn = is_worn_over(p, body, at.place, hit->part);
+    for (int c = 0; c < hit->n; c++) {
+        int v = hit->v[c];
+        double by = way * hit->weight[c] / norm2;
+        if (!is_worn) by = escape_free(&p->escape, body, sheet->place[v], p->point[v], clearance, n, by);
+        if (by > 0) move(s, p, sheet, v, vec_scale(n, by), is_worn, &capped);
+    }
 }
 
 void settle_mark(Settler *s, const Push *p, const Sheet *sheet) {
     s->nmarked = s->nraised;
     for (int k = 0; k < s->nmarked && k < MARKED_MOST; k++) {
         s->was_offset[k] = p->field.offset[sheet->place[s->raised[k]]];
+        s->was_dent[k] = p->field.dent[sheet->place[s->raised[k]]];
         s->was_point[k] = p->point[s->raised[k]];
     }
 }
@@ -119,6 +144,7 @@ void settle_mark(Settler *s, const Push *p, const Sheet *sheet) {
 bool settle_back(const Settler *s, Push *p, const Sheet *sheet) {
     for (int k = 0; k < s->nmarked && s->nmarked <= MARKED_MOST; k++) {
         field_set_offset(&p->field, sheet->place[s->raised[k]], s->was_offset[k]);
+        field_set_dent(&p->field, sheet->place[s->raised[k]], s->was_dent[k]);
         p->point[s->raised[k]] = s->was_point[k];
     }
     return s->nmarked <= MARKED_MOST;

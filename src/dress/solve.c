@@ -95,7 +95,7 @@ static Wrong test_raised(Solver *s, const BodyFrame *body, Wrong w, CrossingCoun
 /* The surface as a whole, then what that leaves of every vertex. */
 static void push_all(Solver *s, const BodyFrame *body, PushResult *result) {
     push_solve(&s->push, body, &s->sheet, result);
-    settle_all(&s->push, body, &s->sheet, &result->capped);
+    settle_all(&s->settler, &s->push, body, &s->sheet, &result->capped);
 }
 
 static int total(const Residual *r) { return r->edges + r->cloth + r->inside; }
@@ -122,7 +122,8 @@ static Wrong attempt(Solver *s, const BodyFrame *body, FrameStats *stats, PushRe
         for (int k = 0; !is_spoilt && k < s->tester.nbad; k++)
             raised |= settle_raise(&s->settler, &s->push, s->tester.bad[k], RAISE, RAISE * (round + 1));
         settle_mark(&s->settler, &s->push, &s->sheet);
-        for (int k = 0; raised && k < s->tester.nhits; k++) settle_hit(&s->push, body, &s->sheet, &s->tester.hit[k]);
+        for (int k = 0; raised && k < s->tester.nhits; k++)
+            settle_hit(&s->settler, &s->push, body, &s->sheet, &s->tester.hit[k]);
         start = clock_seconds();
         stats->test_s += start - pushed;
         bool hopeless = solve && (is_clean || s->tester.nbad > HEADWAY * before);
@@ -213,6 +214,40 @@ static bool is_wanting(const Solver *s, const Outcome *o, int k, bool is_carried
     return own > 0 && own <= HOPELESS * s->sheet.nedges;
 }
 
+/* Does the body leave cloth that is worn over `worn` no room before a part from outside, at a point of either? */
+static bool has_no_room(const BodyFrame *body, unsigned worn, int part, Vec3 at, double needed) {
+    BodyPoint x;
+    body_point_move(&x, at);
+    double left = needed - body_point_unpressed(body, part, &x, needed);
+    for (int k = 0; k < body->body->nparts; k++)
+        if (worn & part_bit(body, k) && yield_concerns(body->body->part[part].role, body->body->part[k].role) &&
+            body_point_unpressed(body, k, &x, left) < left)
+            return true;
+    return false;
+}
+
+/* Vertices where a part from outside is left in the cloth because there is no room for its clearance on either side. */
+static int count_pinched(Solver *s, const BodyFrame *body) {
+    int pinched = 0;
+    for (int v = 0; v < s->sheet.nvertices; v++) s->clear[v] = true;
+    for (int k = 0; k < s->tester.nhits; k++) {
+        const TesterHit *hit = &s->tester.hit[k];
+        int nearest = 0;
+        Vec3 x = {0, 0, 0};
+        if (s->fit->collide & part_bit(body, hit->part)) continue;
+        for (int c = 0; c < hit->n; c++) {
+            x = vec_mad(x, s->position[hit->v[c]], hit->weight[c] / body->unit);
+            if (hit->weight[c] > hit->weight[nearest]) nearest = c;
+        }
+        int v = hit->v[nearest];
+        unsigned worn = s->push.lattice->collide[s->sheet.place[v]];
+        if (!s->clear[v] || !has_no_room(body, worn, hit->part, x, 2 * PUSH_MARGIN * s->push.field.scale)) continue;
+        s->clear[v] = false;
+        pinched++;
+    }
+    return pinched;
+}
+
 static Wrong push_and_test(Solver *s, const BodyFrame *body, FrameStats *stats, CrossingCount *count) {
     Outcome best = {.push = {0}};
     double cap = s->push.field.cap;
@@ -222,6 +257,7 @@ static Wrong push_and_test(Solver *s, const BodyFrame *body, FrameStats *stats, 
     for (int k = FRESH; k < ATTEMPTS && is_wanting(s, &best, k, is_carried); k++) {
         Outcome other = {.push.sweeps = best.push.sweeps};
         keep(s);
+        s->settler.denter.is_off = total(&best.wrong.own) > 0;
         prepare(s, k, cap);
         other.wrong = attempt(s, body, stats, &other.push, count);
         if (is_better(&other, &best, cap)) {
@@ -232,10 +268,11 @@ static Wrong push_and_test(Solver *s, const BodyFrame *body, FrameStats *stats, 
         }
     }
     s->push.field.cap = cap;
+    s->settler.denter.is_off = false;
     stats->capped = total(&best.wrong.own) + total(&best.wrong.other) > 0 || best.push.capped;
     stats->sweeps = best.push.sweeps;
     stats->active = best.push.active;
-    stats->pinched = best.push.pinched;
+    stats->pinched = best.push.pinched + count_pinched(s, body);
     stats->displacement = best.push.displacement;
     return best.wrong;
 }

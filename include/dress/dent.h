@@ -1,0 +1,38 @@
+/* Hollows that arms, and other parts that come from outside, press into a garment. */
+#ifndef DRESS_DENT_H
+#define DRESS_DENT_H
+
+#include "dress/push.h"
+
+/* A vertex that a part from outside is too near to. */
+typedef struct {
+    Vec3 at, press;       /* where it is, and by how much it is pressed in */
+    double depth, radius; /* of its hollow */
+    int vertex;
+} Presser;
+
+typedef struct {
+    bool is_off;          /* nothing is pressed in: it did harm in an attempt before */
+    Presser *presser;
+    int npressers;
+    Vec3 *hollow;         /* per vertex: how far it was pressed in, not counting single vertices */
+    bool *is_barred;      /* per place: there the hollow would go through what it is worn over; */
+    int *barred, nbarred; /* the places that are */
+} Denter;
+
+MUST_CHECK bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e);
+
+/* Begins anew: no place is barred. */
+void dent_start(Denter *d);
+
+/* Presses the vertices of a sheet in that parts from outside are too near to, with those round them; only as far as
+   there is room in front of what they are worn over. */
+void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet);
+
+/* Moves a single vertex by so much more, at most that far from where its hollow is. */
+void dent_add(const Denter *d, Push *p, const Sheet *sheet, int vertex, Vec3 by, double most, bool *capped);
+
+/* Takes a vertex back out of its hollow, and bars its place. */
+void dent_back(Denter *d, Push *p, const Sheet *sheet, int vertex);
+
+#endif

@@ -1,0 +1,140 @@
+/* An arm that lies on a skirt presses a hollow into it. In the sweeps it would fight with the legs, for displacements
+   that make room for the one take it from the others. So it comes after them, and they win: a vertex that the arm is
+   too near to is pressed in as far as there is room in front of the legs, and the cloth round it goes along, the less
+   the farther away it is, so that what comes of it is a hollow and no spike. Hollows belong to one
+   frame: where they are follows from where the arm is, so nothing has to be carried along. */
+#include "dress/dent.h"
+
+#include <stdlib.h>
+
+#include "geometry/boxtree.h"
+
+enum { PASSES = 2 }; /* a hollow may bring others to the arm that went past it */
+static const double DEEPEST = 0.10;            /* metres on 1.70 m */
+static const double WIDE = 0.05, WIDENS = 2.5; /* radius of a hollow: that, and this times its depth */
+
+bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e) {
+    *d = (Denter){.npressers = 0};
+    d->presser = ARENA_NEW(arena, Presser, lattice->nplaces, e);
+    d->hollow = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
+    d->is_barred = ARENA_NEW(arena, bool, lattice->nplaces, e);
+    d->barred = ARENA_NEW(arena, int, lattice->nplaces, e);
+    return d->presser && d->hollow && d->is_barred && d->barred;
+}
+
+void dent_start(Denter *d) {
+    for (int k = 0; k < d->nbarred; k++) d->is_barred[d->barred[k]] = false;
+    d->nbarred = 0;
+}
+
+/* The farthest that parts from outside press a vertex. Those that the garment is worn over elsewhere have moved it
+   in the sweeps. */
+static Vec3 press_of(const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex) {
+    const Lattice *l = p->field.lattice;
+    int place = sheet->place[vertex];
+    double most = DEEPEST * p->field.scale, farthest = 0;
+    Vec3 press = {0, 0, 0}, n;
+    EscapePoint at;
+    escape_at(&at, place, p->point[vertex], p->clearance[vertex]);
+    for (int k = 0; k < body->body->nparts; k++) {
+        if ((l->collide[place] | l->fit->collide) & part_bit(body, k)) continue;
+        if (body_frame_far(body, k, at.point.at, at.clearance)) continue;
+        double distance = body_point_distance(body, k, &at.point, at.clearance, &n);
+        if (distance >= at.clearance) continue;
+        double way = fmin(escape_way(&p->escape, body, &at, k, at.clearance, distance, &n), most);
+        way = escape_free(&p->escape, body, place, at.point.at, at.clearance, n, way);
+        if (way <= farthest) continue;
+        farthest = way;
+        press = vec_scale(n, way);
+    }
+    return press;
+}
+
+static int deepest_first(const void *a, const void *b) {
+    const Presser *x = a, *y = b;
+    if (x->depth != y->depth) return x->depth > y->depth ? -1 : 1;
+    return x->vertex - y->vertex;
+}
+
+static void find_pressers(Denter *d, const Push *p, const BodyFrame *body, const Sheet *sheet) {
+    d->npressers = 0;
+    for (int v = 0; v < sheet->nvertices; v++) {
+        Vec3 at = p->point[v];
+        if (near_slack(p->near[v].least, p->clearance[v]) > vec_dist(at, p->near[v].seen)) continue;
+        Vec3 press = press_of(p, body, sheet, v);
+        double depth = vec_len(press);
+        if (depth <= 0) continue;
+        d->presser[d->npressers++] = (Presser){at, press, depth, WIDE * p->field.scale + WIDENS * depth, v};
+    }
+    qsort(d->presser, (size_t)d->npressers, sizeof *d->presser, deepest_first);
+}
+
+/* What the pressers make of a vertex at x: the deepest of their hollows there. */
+static Vec3 hollow_at(const Denter *d, Vec3 x) {
+    Vec3 hollow = {0, 0, 0};
+    double deepest = 0;
+    for (int k = 0; k < d->npressers && d->presser[k].depth > deepest; k++) {
+        const Presser *by = &d->presser[k];
+        Vec3 off = vec_sub(x, by->at);
+        double rest = 1 - vec_dot(off, off) / (by->radius * by->radius);
+        if (rest <= 0 || rest * rest * by->depth <= deepest) continue;
+        deepest = rest * rest * by->depth;
+        hollow = vec_scale(by->press, rest * rest);
+    }
+    return hollow;
+}
+
+/* All that any hollow reaches. */
+static Box reach(const Denter *d) {
+    Box box = box_empty();
+    double widest = d->presser[0].radius;
+    for (int k = 0; k < d->npressers; k++) box_add(&box, d->presser[k].at);
+    Vec3 far = vec(widest, widest, widest);
+    return (Box){vec_sub(box.low, far), vec_add(box.high, far)};
+}
+
+static void set_dent(Push *p, const Sheet *sheet, int vertex, Vec3 dent) {
+    int place = sheet->place[vertex];
+    p->point[vertex] = vec_add(p->point[vertex], vec_sub(dent, p->field.dent[place]));
+    field_set_dent(&p->field, place, dent);
+}
+
+static void press_in(const Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
+    Box box = reach(d);
+    for (int v = 0; v < sheet->nvertices; v++) {
+        int place = sheet->place[v];
+        Vec3 at = p->point[v];
+        if (d->is_barred[place] || !box_touches(box, (Box){at, at})) continue;
+        Vec3 hollow = hollow_at(d, at);
+        double depth = vec_len(hollow);
+        if (depth <= 0) continue;
+        double way = escape_free(&p->escape, body, place, at, p->clearance[v], vec_scale(hollow, 1 / depth), depth);
+        if (way <= 0) continue;
+        bool capped;
+        Vec3 dent = p->field.dent[place], far = vec_sub(vec_mad(at, hollow, way / depth), p->global[v]);
+        Vec3 more = vec_sub(vec_add(p->global[v], field_limit(far, p->field.cap, &capped)), at);
+        set_dent(p, sheet, v, field_limit(vec_add(dent, more), DEEPEST * p->field.scale, &capped));
+    }
+}
+
+void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
+    for (int pass = 0; pass < PASSES && !d->is_off; pass++) {
+        find_pressers(d, p, body, sheet);
+        if (d->npressers == 0) break;
+        press_in(d, p, body, sheet);
+    }
+    for (int v = 0; v < sheet->nvertices; v++) d->hollow[v] = p->field.dent[sheet->place[v]];
+}
+
+void dent_add(const Denter *d, Push *p, const Sheet *sheet, int vertex, Vec3 by, double most, bool *capped) {
+    Vec3 more = vec_sub(vec_add(p->field.dent[sheet->place[vertex]], by), d->hollow[vertex]);
+    set_dent(p, sheet, vertex, vec_add(d->hollow[vertex], field_limit(more, most, capped)));
+}
+
+void dent_back(Denter *d, Push *p, const Sheet *sheet, int vertex) {
+    int place = sheet->place[vertex];
+    if (d->is_barred[place] || field_is_zero(p->field.dent[place])) return;
+    set_dent(p, sheet, vertex, vec(0, 0, 0));
+    d->barred[d->nbarred++] = place;
+    d->is_barred[place] = true;
+}
