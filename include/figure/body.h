@@ -107,7 +107,7 @@ double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal);
    when it is first needed. Start with {.p = p}; the answers of body_look are those of body_distance. */
 typedef struct {
     Vec3 p;
-    int looks;                  /* 0, 1 or 2; private, as is the rest */
+    int looks, interval;        /* 0, 1 or 2; private, as is the rest */
     double first, distance;
     Vec3 normal;
 } BodyLook;

@@ -103,9 +103,8 @@ void body_part_close(BodyPart *part, const double cap[2]) {
     }
 }
 
-/* The five values and their slopes. */
-static void shape_at(const BodyPart *part, double y, double v[SHAPE_VALUES], double d[SHAPE_VALUES]) {
-    int i = body_interval(part, y);
+/* The five values and their slopes in interval i. */
+static inline void shape_in(const BodyPart *part, int i, double y, double v[SHAPE_VALUES], double d[SHAPE_VALUES]) {
     double t = y - part->section[i].at;
     const double (*c)[SHAPE_VALUES] = part->cubic[i];
     for (int k = 0; k < SHAPE_VALUES; k++) {
@@ -117,7 +116,7 @@ static void shape_at(const BodyPart *part, double y, double v[SHAPE_VALUES], dou
 Section body_section_at(const BodyPart *part, double y, Section *slope) {
     double v[SHAPE_VALUES], d[SHAPE_VALUES];
     y = clamp(y, part->low, part->high);
-    shape_at(part, y, v, d);
+    shape_in(part, body_interval(part, y), y, v, d);
     if (slope) *slope = (Section){1, d[0], d[1], d[2], d[3], d[4]};
     return (Section){y, v[0], v[1], v[2], v[3], v[4]};
 }
@@ -128,28 +127,35 @@ Section body_section(const BodyPart *part, double at) {
     return s;
 }
 
+/* body_interval, where `last` is likely to be it: then nobody waits for the table. */
+static inline int interval_again(const BodyPart *part, double y, int last) {
+    bool is_in = part->section[last].at <= y && y < part->section[last + 1].at;
+    return is_in ? last : body_interval(part, y);
+}
+
 /* The surface is where f = 1, f being the distance from the section's centre in units of the
    half axes. Takes the surface point at the height of `at`, in the direction of `at`; returns
    how far p stands before the tangent plane there, and the plane's unit normal. For p == at
-   the sign is that of f - 1, so it is exact. */
-static double before_plane(const BodyPart *part, Vec3 at, Vec3 p, Vec3 *normal) {
+   the sign is that of f - 1, so it is exact. *interval: where to look first, and where it was. */
+static inline double before_plane(const BodyPart *part, Vec3 at, Vec3 p, int *interval, Vec3 *normal) {
     double v[SHAPE_VALUES], d[SHAPE_VALUES], y = clamp(at.y, part->low + BODY_POLE, part->high - BODY_POLE);
-    shape_at(part, y, v, d);
+    *interval = *interval < 0 ? body_interval(part, y) : interval_again(part, y, *interval);
+    shape_in(part, *interval, y, v, d);
     double dx = at.x - v[0], dz = at.z - v[1];
-    int depth = dz >= 0 ? 3 : 4;
-    double per_x = 1 / v[2], per_z = 1 / v[depth];
+    bool is_front = dz >= 0;
+    double depth = is_front ? v[3] : v[4], slope = is_front ? d[3] : d[4], per_x = 1 / v[2], per_z = 1 / depth;
     double ux = dx * per_x, uz = dz * per_z, f = sqrt(ux * ux + uz * uz);
     if (f > 1e-9) {
         f = 1 / f;
         ux *= f;
         uz *= f;
     } else { /* on the axis: the way out is along the shorter half axis */
-        ux = v[2] <= v[depth];
+        ux = v[2] <= depth;
         uz = 1 - ux;
     }
     Vec3 g = vec(ux * per_x, 0, uz * per_z); /* half the gradient of f^2 on the surface */
-    g.y = -(g.x * (d[0] + ux * d[2]) + g.z * (d[1] + uz * d[depth]));
-    Vec3 surface = vec(v[0] + ux * v[2], y, v[1] + uz * v[depth]);
+    g.y = -(g.x * (d[0] + ux * d[2]) + g.z * (d[1] + uz * slope));
+    Vec3 surface = vec(v[0] + ux * v[2], y, v[1] + uz * depth);
     double size = 1 / vec_len(g);
     *normal = vec_scale(g, size);
     return vec_dot(vec_sub(p, surface), *normal);
@@ -163,7 +169,7 @@ static void look_again(const BodyPart *part, BodyLook *at) {
     at->distance = at->first;
     at->looks = 2;
     if (fabs(at->normal.y) <= BODY_LEANING) return;
-    double better = before_plane(part, vec_mad(at->p, at->normal, -at->first), at->p, &other);
+    double better = before_plane(part, vec_mad(at->p, at->normal, -at->first), at->p, &at->interval, &other);
     if ((better > 0) != (at->first > 0)) return;
     at->distance = better;
     at->normal = other;
@@ -177,7 +183,8 @@ double body_look(const BodyPart *part, BodyLook *at, double far, Vec3 *normal) {
     if (away >= limit * limit) return fmax(far, sqrt(away) - part->reach);
 
     if (at->looks == 0) {
-        at->first = before_plane(part, p, p, &at->normal);
+        at->interval = -1;
+        at->first = before_plane(part, p, p, &at->interval, &at->normal);
         at->looks = 1;
     }
     if (at->first >= far) return far;
