@@ -15,14 +15,15 @@ typedef struct { double weight[LATTICE_LEVELS][2]; } PushAlong;
 
 /* A mesh vertex near the body. */
 typedef struct {
-    int vertex;
+    int vertex, patch;
     const PushCell *cell;             /* what moves it, */
     const PushAlong *u, *w;           /* and by how much */
     double spent, budget;             /* push issued in this frame, and its limit; metres */
     Vec3 net;                         /* their sum */
     Near near;                        /* parts worth asking, and where it was when they were last asked, */
     unsigned asked;                   /* as those of these were where they give way; */
-    double travelled;                 /* what it had gone at most by then (Push.travel) */
+    double travelled;                 /* what it had gone at most by then (Push.travel), */
+    double patch_travelled;           /* and its patch */
 } PushSample;
 
 /* The displacement and the solver's memory. */
@@ -40,7 +41,8 @@ typedef struct {
                                          cloth: in (0, 1]. Set it before push_start */
     double *mobility;                 /* per level vertex: how willingly it moves in this frame */
     double *travel;                   /* per level vertex: metres moved since the samples were found, */
-    bool any_travel;                  /* if anything was */
+    double *patch_travel;             /* and per patch the most that anything on it can have; */
+    int *first_neighbour, *neighbour; /* for what moves a patch moves those that share a corner with it */
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
     double *clearance;                /* per mesh vertex: distance asked for, */
     double slack;                     /* of which this share may be missing in this sweep */

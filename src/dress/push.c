@@ -39,6 +39,31 @@ static void list_unknowns(Push *p) {
             memcpy(p->along[i].weight[level], l->level[level].step[i].weight, sizeof p->along[i].weight[level]);
 }
 
+/* Patches that share a corner are moved by the same unknowns, in part. Without a list only counts. */
+static int list_neighbours(const Lattice *l, int patch, int *list) {
+    const LatticeLevel *at = &l->level[0];
+    int n = 0;
+    for (int other = 0; other < l->fit->npatches; other++) {
+        bool shares = false;
+        for (int k = 0; k < 16; k++) shares |= at->vertex[4 * patch + k / 4] == at->vertex[4 * other + k % 4];
+        if (shares && list) list[n] = other;
+        n += shares;
+    }
+    return n;
+}
+
+static bool find_neighbours(Push *p, Arena *arena, Error *e) {
+    int npatches = p->lattice->fit->npatches;
+    p->first_neighbour = ARENA_NEW(arena, int, npatches + 1, e);
+    if (!p->first_neighbour) return false;
+    for (int k = 0; k < npatches; k++)
+        p->first_neighbour[k + 1] = p->first_neighbour[k] + list_neighbours(p->lattice, k, NULL);
+    p->neighbour = ARENA_NEW(arena, int, p->first_neighbour[npatches], e);
+    for (int k = 0; k < npatches && p->neighbour; k++)
+        list_neighbours(p->lattice, k, p->neighbour + p->first_neighbour[k]);
+    return p->neighbour != NULL;
+}
+
 bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     *p = (Push){.lattice = lattice};
     if (!escape_reserve(&p->escape, lattice, arena, e) || !field_reserve(&p->field, lattice, arena, e) ||
@@ -49,6 +74,8 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     p->along = ARENA_NEW(arena, PushAlong, lattice->side + 1, e);
     if (!p->cell || !p->along) return false;
     list_unknowns(p);
+    if (!find_neighbours(p, arena, e)) return false;
+    p->patch_travel = ARENA_NEW(arena, double, lattice->fit->npatches, e);
     p->mobility = ARENA_NEW(arena, double, p->field.start[LATTICE_LEVELS], e);
     p->travel = ARENA_NEW(arena, double, p->field.start[LATTICE_LEVELS], e);
     p->global = ARENA_NEW(arena, Vec3, places, e);
@@ -57,7 +84,7 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     p->clearance = ARENA_NEW(arena, double, places, e);
     p->near = ARENA_NEW(arena, Near, places, e);
     p->sample = ARENA_NEW(arena, PushSample, places, e);
-    return p->mobility && p->travel && p->global && p->point && p->kept_point && p->clearance && p->near && p->sample;
+    return p->patch_travel && p->mobility && p->travel && p->global && p->point && p->kept_point && p->clearance && p->near && p->sample;
 }
 
 /* A level vertex may move where all cells round it are split to its level; where they are not, it is at rest. */
@@ -117,6 +144,7 @@ static void add_sample(Push *p, int vertex, int place, unsigned parts, double fa
     int patch, i, j, cells = 1 << l->depth;
     lattice_owner(l, place, &patch, &i, &j);
     s->vertex = vertex;
+    s->patch = patch;
     s->cell = &p->cell[(patch * cells + deepest[i].cell) * cells + deepest[j].cell];
     s->u = &p->along[i];
     s->w = &p->along[j];
@@ -124,7 +152,7 @@ static void add_sample(Push *p, int vertex, int place, unsigned parts, double fa
     s->near.parts = parts;
     near_sum(&s->near, far);
     s->asked = 0;
-    s->spent = s->travelled = 0;
+    s->spent = s->travelled = s->patch_travelled = 0;
     s->budget = -1;
     s->net = vec(0, 0, 0);
 }
@@ -132,7 +160,7 @@ static void add_sample(Push *p, int vertex, int place, unsigned parts, double fa
 static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
     double far = (PUSH_MARGIN + REACH) * p->field.scale;
     p->nsamples = 0;
-    p->any_travel = false;
+    memset(p->patch_travel, 0, (size_t)p->lattice->fit->npatches * sizeof *p->patch_travel);
     memset(p->travel, 0, (size_t)p->field.start[LATTICE_LEVELS] * sizeof *p->travel);
     find_points(p, sheet);
     near_find(p->near, body, sheet, p->point, far, p->near_known);
@@ -151,8 +179,9 @@ static void project(Push *p, const PushSample *s, double weight[][4], Vec3 n, do
             mobile[level][k] = p->mobility[s->cell->unknown[level][k]] * weight[level][k];
             norm2 += mobile[level][k] * weight[level][k];
         }
-    double step = depth / fmax(norm2, NORM_MIN);
-    for (int level = 0; level <= p->lattice->depth; level++)
+    double step = depth / fmax(norm2, NORM_MIN), sum = 0;
+    for (int level = 0; level <= p->lattice->depth; level++) {
+        double most = 0;
         for (int k = 0; k < 4; k++) {
             int unknown = s->cell->unknown[level][k];
             double by = step * mobile[level][k];
@@ -160,8 +189,12 @@ static void project(Push *p, const PushSample *s, double weight[][4], Vec3 n, do
             Vec3 *d = &p->field.displacement[unknown];
             *d = field_limit(vec_mad(*d, n, by), p->field.cap, &result->capped);
             p->travel[unknown] += by;
+            most = fmax(most, by);
         }
-    p->any_travel = true;
+        sum += most;
+    }
+    for (int k = p->first_neighbour[s->patch]; k < p->first_neighbour[s->patch + 1]; k++)
+        p->patch_travel[p->neighbour[k]] += sum;
 }
 
 /* The most that a sample can have been moved since it was found. */
@@ -182,18 +215,19 @@ static bool is_pinched(const Push *p, const PushSample *s) {
     return s->spent > s->budget || (s->spent > BUDGET * p->field.scale && vec_len(s->net) < HEADWAY * s->spent);
 }
 
-/* May a sample have come too near to any part since they were last asked? First the way that what moves it
-   has gone is held against its slack, then its own. If so it is placed. */
+/* May a sample have come too near to any part since they were last asked? The most that its patch has gone is held
+   against its slack, then what moves it, then its own way. If so it is placed. */
 static bool needs_asking(Push *p, const Sheet *sheet, PushSample *s, double enough, double weight[][4]) {
     double slack = near_slack(s->near.least, enough);
-    if (slack > 0 && !p->any_travel) return false;
+    if (slack > p->patch_travel[s->patch] - s->patch_travelled) return false;
     double way = travelled(p, s);
     if (slack > way - s->travelled) return false;
     weigh(p, s, weight);
     Vec3 x = sample_point(p, sheet, s, weight);
     double gone = vec_dist(x, s->near.seen);
     s->travelled = way;
-    if (slack > gone) s->travelled -= gone;
+    s->patch_travelled = p->patch_travel[s->patch];
+    if (slack > gone) s->travelled -= gone, s->patch_travelled -= gone;
     else near_move(&s->near, x);
     return slack <= gone;
 }
