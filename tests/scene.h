@@ -55,10 +55,10 @@ static inline void scene_leg(const Scene *s, Pose *p, bool left, double hip, dou
 }
 
 /* One frame in a pose. */
-static inline FrameStats scene_frame(Scene *s, Dresser *d, const Pose *pose, double dt, bool restart, Mesh *mesh) {
+static inline FrameStats scene_frame(Scene *s, Dresser *d, const Pose *pose, double dt, Tie tie, Mesh *mesh) {
     FrameStats stats;
     body_frame_pose(&s->posed, pose);
-    dresser_frame(d, &s->posed, dt, restart, mesh, &stats);
+    dresser_frame(d, &s->posed, dt, tie, mesh, &stats);
     return stats;
 }
 

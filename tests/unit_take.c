@@ -111,7 +111,7 @@ static void test_spans(const char *path) {
     TakeFrame *f = all_frames(path, (FrameSpan){3, 20, 4}, 0, &n);
     OK(n == 5 && f[0].number == 3 && f[4].number == 19, "3:20:4 is 3, 7, 11, 15, 19");
     NEAR(f[1].time, 6 * (f[1].dt / 4), 1e-12, "time counts from the motion's first frame");
-    OK(f[0].restart && f[0].dt == 0 && !f[1].restart, "the first of a take starts afresh");
+    OK(f[0].tie == TIE_AFRESH && f[0].dt == 0 && f[1].tie == TIE_GOES_ON, "the first of a take starts afresh");
     free(f);
     f = all_frames(path, (FrameSpan){FRAMES, 0, 0}, 0, &n);
     OK(n == 1 && f[0].number == FRAMES, "the last frame alone");
@@ -182,17 +182,17 @@ static void test_jumps(void) {
     const char *path = write_walk("jumps.bvh", 2, spoil);
     int n, wrong = 0;
     TakeFrame *f = all_frames(path, (FrameSpan){0}, 0, &n);
-    for (int i = 0; i < n; i++) wrong += f[i].restart != (i <= 1 || i == 20);
+    for (int i = 0; i < n; i++) wrong += (f[i].tie == TIE_AFRESH) != (i <= 1 || i == 20);
     OK(wrong == 0, "a rest pose in front and a teleport make frames 2 and 21 start afresh, and no other");
     double rate = 4 / f[1].time;
     free(f);
     f = all_frames(path, (FrameSpan){1, 0, 7}, 0, &n);
-    OK(f[1].restart && !f[2].restart && f[3].restart && !f[4].restart, "also where the frames themselves are left out");
+    OK(f[1].tie && !f[2].tie && f[3].tie && !f[4].tie, "also where the frames themselves are left out");
     free(f);
     f = all_frames(path, (FrameSpan){0}, rate, &n);
     NEAR(apart(path, &f[76].pose, &f[79].pose), 0, 1e-9, "nothing is interpolated across a teleport");
     OK(apart(path, &f[79].pose, &f[80].pose) > 2.9, "which happens at its frame");
-    for (int i = wrong = 0; i < n; i++) wrong += f[i].restart != (i == 0 || i == 4 || i == 80);
+    for (int i = wrong = 0; i < n; i++) wrong += (f[i].tie == TIE_AFRESH) != (i == 0 || i == 4 || i == 80);
     OK(wrong == 0, "resampled frames start afresh behind it");
     free(f);
     Notes notes = {0};
@@ -205,6 +205,29 @@ static void test_jumps(void) {
     OK(notes.count == 2 && strstr(notes.note[0].text, "frame 1 stands apart"), "the rest pose is told");
     OK(notes.count == 2 && strstr(notes.note[1].text, "at frame 21"), "the teleport is told");
     close_scene(&s);
+}
+
+/* Frames 21 and 22 stand 3 m aside; behind them all is as it was. */
+static void lead_astray(int frame, double *value, int n) {
+    if (n > 0 && (frame == 21 || frame == 22)) value[0] += 300;
+}
+
+static void test_astray(void) {
+    const char *path = write_walk("astray.bvh", 2, lead_astray);
+    int n, wrong = 0;
+    TakeFrame *f = all_frames(path, (FrameSpan){0}, 0, &n);
+    double frame_time = f[1].time;
+    for (int i = 1; i < n; i++) wrong += f[i].tie != (i == 20 || i == 21 ? TIE_ASTRAY : TIE_GOES_ON);
+    OK(wrong == 0, "frames that the motion leaves at once are astray, and no other starts afresh");
+    NEAR(f[22].dt, 3 * frame_time, 1e-12, "time behind them counts from the frame in front");
+    free(f);
+    f = all_frames(path, (FrameSpan){1, 0, 7}, 0, &n);
+    OK(f[3].tie == TIE_ASTRAY && f[4].tie == TIE_GOES_ON, "also where frames are left out");
+    free(f);
+    f = all_frames(path, (FrameSpan){2, 0, 7}, 0, &n);
+    for (int i = wrong = 1; i < n; i++) wrong += f[i].tie != TIE_GOES_ON;
+    OK(wrong == 1, "left out themselves they leave no trace");
+    free(f);
 }
 
 static size_t memory_of(const char *path) {
@@ -233,6 +256,7 @@ int main(void) {
     test_rates(path);
     test_wrapped_angles(path);
     test_jumps();
+    test_astray();
     test_memory();
     folder_remove();
     return tap_done();

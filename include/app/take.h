@@ -5,13 +5,14 @@
 
 #include "app/jumps.h"
 #include "app/settings.h"
+#include "dress/frame.h"
 #include "figure/relax.h"
 
 typedef struct {
     int number;   /* from 1, of the source or, resampled, of the resampled frames */
     double time;  /* seconds since the first frame of the motion */
-    double dt;    /* seconds since the last frame of the take; 0 for its first */
-    bool restart; /* the first one, or the figure has jumped since the last one */
+    double dt;    /* seconds since the last frame of the take that is not astray; 0 for its first */
+    Tie tie;      /* to the frame before; those that a jump leads to and another back from at once are astray */
     Pose pose;
     double arm_turn; /* degrees: the most by which a joint of an arm was turned outwards; see take_relax */
 } TakeFrame;

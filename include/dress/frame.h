@@ -40,6 +40,13 @@ typedef struct {
     double classify_s, plain_s;       /* of the classification, a part of test_s; of it without culling */
 } FrameStats;
 
+/* What a frame has to do with the one before it. */
+typedef enum {
+    TIE_GOES_ON, /* its cloth goes on from there */
+    TIE_AFRESH,  /* nothing: it is the first, or the figure has jumped */
+    TIE_ASTRAY   /* nothing, and the next one that goes on does so from the last that was not astray */
+} Tie;
+
 /* A garment on a figure with the state that is carried from frame to frame. */
 typedef struct Dresser Dresser;
 
@@ -48,11 +55,10 @@ typedef struct Dresser Dresser;
 MUST_CHECK bool dresser_open(const Garment *garment, const Figure *figure, const Body *body,
                              const DressOptions *options, Arena *arena, Dresser **out, Error *e);
 
-/* Dresses one frame. dt: seconds since the last one; restart: forget the carried state (first
-   frame, teleport). *mesh is filled with arrays of the dresser, valid until the next call: in
-   output units (body->unit), snapped, with normals, u, w and a group for each panel. Allocates
-   nothing. */
-void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, Mesh *mesh, FrameStats *stats);
+/* Dresses one frame. dt: seconds since the one that it goes on from. *mesh is filled with arrays of the
+   dresser, valid until the next call: in output units (body->unit), snapped, with normals, u, w and a group for
+   each panel. Allocates nothing. */
+void dresser_frame(Dresser *d, const BodyFrame *body, double dt, Tie tie, Mesh *mesh, FrameStats *stats);
 
 /* A leaf of a root patch's quadtree after the last frame, with its control points. World, metres. */
 typedef struct { Patch patch; int root, level; } LeafPatch;

@@ -23,6 +23,8 @@ typedef struct {
     Leaves grid;             /* what is tessellated under a fixed topology */
     Sheet sheet;
     Push push;
+    Field before;            /* frames that are astray, */
+    bool is_astray;          /* as the last one was */
     Settler settler;
     Tester tester;
     Vec3 *position;          /* of the sheet's vertices as they are written: output units, snapped */
@@ -34,10 +36,10 @@ typedef struct {
 MUST_CHECK bool solver_reserve(Solver *s, const Fit *fit, const Lattice *lattice, const DressOptions *options,
                                Arena *arena, Error *e);
 
-/* Takes along what the last frame displaced, `dt` seconds ago, unless `restart`; pushes the cloth off the body,
+/* Takes along what the frame that this one goes on from displaced, `dt` seconds ago; pushes the cloth off the body,
    unless `is_global`; leaves the mesh in sheet and position. Fills the solver's columns of *stats and adds to
    *count. */
-Wrong solver_frame(Solver *s, const BodyFrame *body, const Patch *root, double dt, bool restart, bool is_global,
+Wrong solver_frame(Solver *s, const BodyFrame *body, const Patch *root, double dt, Tie tie, bool is_global,
                    FrameStats *stats, CrossingCount *count);
 
 /* The same last test for a mesh that another method has made. */

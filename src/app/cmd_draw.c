@@ -102,7 +102,7 @@ static bool dress(Sheet *sh, int cell, int g, const TakeFrame *frame, Vec3 shift
     unsigned show = sh->drawing.cell[cell].show;
     Mesh mesh;
     FrameStats stats;
-    dresser_frame(d, &sh->wearer.posed, frame->dt, frame->restart, &mesh, &stats);
+    dresser_frame(d, &sh->wearer.posed, frame->dt, frame->tie, &mesh, &stats);
     LeafKind kind = show & SHOW_CELLS ? LEAVES_CELLS : LEAVES_BY_RULE;
     int n = dresser_leaves(d, kind, NULL, 0);
     *nleaves += n;
@@ -156,14 +156,14 @@ static bool keep_frame(Sheet *sh, int number, const TakeFrame *frame, Error *e) 
 static bool keep_frames(Sheet *sh, Error *e) {
     TakeFrame frame;
     double last_time = 0;
-    bool restart = false;
+    bool afresh = false;
     for (int number = 0; number < sh->nframes && take_next(sh->take, &frame, e);) {
-        restart = restart || frame.restart;
+        afresh = afresh || frame.tie == TIE_AFRESH;
         if (frame.number != sh->frame[number]) continue;
         frame.dt = number ? frame.time - last_time : 0;
-        frame.restart = restart;
+        if (afresh && frame.tie == TIE_GOES_ON) frame.tie = TIE_AFRESH;
         last_time = frame.time;
-        restart = false;
+        afresh = false;
         if (!keep_frame(sh, number++, &frame, e)) return false;
     }
     return e->kind == ERR_NONE;

@@ -131,7 +131,7 @@ void compare_add(CompareSum *sum, const CompareSum *other) {
 static bool dress_method(Experiment *x, int r, int method, const TakeFrame *frame, FrameStats *stats, Error *e) {
     FrameRow *row = &x->row[method][x->nframes];
     Mesh mesh;
-    dresser_frame(x->dresser[method], &x->wearer.posed, frame->dt, frame->restart, &mesh, stats);
+    dresser_frame(x->dresser[method], &x->wearer.posed, frame->dt, frame->tie, &mesh, stats);
     if (r == 0 || stats->plain_s < row->plain_s) row->plain_s = stats->plain_s;
     if (r == 0 || stats->classify_s < row->culled_s) row->culled_s = stats->classify_s;
     if (r == 0 || stats->push_s < row->solve_s) row->solve_s = stats->push_s;

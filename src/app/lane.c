@@ -71,7 +71,7 @@ static void dress_garment(const Fitting *f, int g, Pen *pen) {
     Mesh mesh;
     FrameStats stats;
     double since = clock_seconds();
-    dresser_frame(r->lane->dresser[g], &f->now->wearer.posed, frame->dt, frame->restart, &mesh, &stats);
+    dresser_frame(r->lane->dresser[g], &f->now->wearer.posed, frame->dt, frame->tie, &mesh, &stats);
     if (!f->row) return;
     f->row[g].stats = stats;
     r->result->seconds[g] += clock_lap(&since);

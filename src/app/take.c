@@ -8,7 +8,8 @@
 
    A jump is a step that no body makes: a T-pose in front of the take, or a root that teleports
    (rows 25 and 26 of the table of defects). Both sides are dressed as they stand, but nothing is
-   carried across, and nothing interpolated between. */
+   carried across, and nothing interpolated between. Where the motion is back at once, as if it had
+   not jumped, the frames over there are astray: they are dressed, and then forgotten. */
 #include "app/take.h"
 
 #include <math.h>
@@ -16,17 +17,18 @@
 #include "app/relief.h"
 
 /* The first frame stands alone if the step to the second is so many times wider than any of the
-   next steps, and wider than this part of the height. */
+   next steps, and wider than this part of the height. The motion is back from a jump that is so many times
+   wider than what is left of it. */
 static const double LONE_FACTOR = 4, LONE_STEP = 0.05;
 
 /* Frame times are rounded in files ("0.0083333"): what lies nearer than this to a frame of the
    source, as a part of its time, is that frame and no mixture. */
 static const double ROUNDING = 1e-5;
 
-enum { LONE_LOOK = 8 };
+enum { LONE_LOOK = 8, ASTRAY_MOST = 3 };
 
 /* A source frame: the joints in the file's units and axes, and the figure's pose. */
-typedef struct { int frame; Rigid *world; Pose pose; } Sample;
+typedef struct { int frame; Rigid *world; Pose pose; bool is_astray; } Sample;
 
 struct Take {
     const Motion *motion;
@@ -37,8 +39,11 @@ struct Take {
     int number, last, step;    /* of the next frame, from 1 */
     bool begun;
     Sample behind, ahead;      /* the window: ahead.frame == behind.frame + 1, from 0 */
-    bool passed;               /* a jump between the frame that was last given out and `behind` */
-    bool within;               /* a jump between `behind` and `ahead` */
+    Sample probe;              /* a frame farther ahead */
+    bool within;               /* a jump between `behind` and `ahead`, */
+    bool cut;                  /* and nothing is carried across; */
+    bool passed;               /* the same between the frame that was last given out and `behind` */
+    int astray_until;          /* frames in front of that one are astray, if their steps are jumps */
     Rigid *between;            /* joints of a resampled frame */
     bool lone_first;
     double last_time;
@@ -78,15 +83,33 @@ static bool look_at_first(Take *t, Error *e) {
     return true;
 }
 
+/* At a jump so wide: does the motion go on in one of the next frames as if it had not been? */
+static bool look_for_return(Take *t, JumpRule rule, double jump, Error *e) {
+    double frame_time = rule.frame_time, width;
+    for (int k = 1; k <= ASTRAY_MOST && t->ahead.frame + k < t->motion->nframes; k++) {
+        int frame = t->ahead.frame + k;
+        if (!load(t, &t->probe, frame, e)) return false;
+        rule.frame_time = frame_time * (k + 1);
+        Step kind = jumps_judge(&rule, frame, &t->behind.pose, &t->probe.pose, &width);
+        if (kind != STEP_PLAIN || width * LONE_FACTOR > jump) continue;
+        t->astray_until = frame;
+        break;
+    }
+    return true;
+}
+
 /* Moves on and looks at the step inside the window. */
 static bool advance(Take *t, Error *e) {
     if (!shift(t, e)) return false;
     double width;
     JumpRule rule = {t->figure, t->motion->frame_time, t->lone_first};
     Step kind = jumps_judge(&rule, t->ahead.frame, &t->behind.pose, &t->ahead.pose, &width);
-    t->passed = t->passed || t->within;
-    t->within = kind == STEP_JUMP;
     if (kind != STEP_PLAIN) jumps_add(&t->jumps, t->ahead.frame + 1, width, kind);
+    t->passed = t->passed || t->cut;
+    t->within = kind == STEP_JUMP;
+    if (t->within && !t->behind.is_astray && !look_for_return(t, rule, width, e)) return false;
+    t->ahead.is_astray = t->ahead.frame < t->astray_until;
+    t->cut = t->within && !t->behind.is_astray && !t->ahead.is_astray;
     return true;
 }
 
@@ -118,8 +141,9 @@ bool take_open(const Motion *m, const Figure *figure, const FrameSpan *span, dou
     t->row = ARENA_NEW(arena, double, s->nchannels, e);
     t->behind.world = ARENA_NEW(arena, Rigid, s->njoints, e);
     t->ahead.world = ARENA_NEW(arena, Rigid, s->njoints, e);
+    t->probe.world = ARENA_NEW(arena, Rigid, s->njoints, e);
     t->between = ARENA_NEW(arena, Rigid, s->njoints, e);
-    if (!t->row || !t->behind.world || !t->ahead.world || !t->between) return false;
+    if (!t->row || !t->behind.world || !t->ahead.world || !t->probe.world || !t->between) return false;
     return motion_reader_open(m, arena, &t->reader, e) && look_at_first(t, e);
 }
 
@@ -177,14 +201,22 @@ static bool relax(Take *t, int frame, int next, double part, TakeFrame *out, Err
     return true;
 }
 
+static void tie_to_last(Take *t, bool is_astray, TakeFrame *out) {
+    out->tie = is_astray ? TIE_ASTRAY : t->passed ? TIE_AFRESH : TIE_GOES_ON;
+    if (!is_astray) t->passed = false;
+}
+
 /* A frame of the source as it stands. */
 static bool give_source(Take *t, int frame, TakeFrame *out, Error *e) {
     if (!reach(t, frame, frame, e)) return false;
     bool is_ahead = t->ahead.frame == frame;
-    out->pose = is_ahead ? t->ahead.pose : t->behind.pose;
-    out->restart = t->passed || (is_ahead && t->within);
-    t->passed = false;
-    if (is_ahead) t->within = false;
+    const Sample *s = is_ahead ? &t->ahead : &t->behind;
+    out->pose = s->pose;
+    if (is_ahead) {
+        t->passed = t->passed || t->cut;
+        t->cut = false;
+    }
+    tie_to_last(t, s->is_astray, out);
     return relax(t, frame, frame, 0, out, e);
 }
 
@@ -193,8 +225,7 @@ static bool give_between(Take *t, int frame, double part, TakeFrame *out, Error 
     if (!reach(t, frame + 1, frame, e)) return false;
     if (t->within) out->pose = t->behind.pose;
     else interpolate(t, part, &out->pose);
-    out->restart = t->passed;
-    t->passed = false;
+    tie_to_last(t, t->behind.is_astray, out);
     return relax(t, frame, t->within ? frame : frame + 1, part, out, e);
 }
 
@@ -212,9 +243,9 @@ bool take_next(Take *t, TakeFrame *out, Error *e) {
         out->time = (t->number - 1) * frame_time;
         good = give_source(t, t->number - 1, out, e);
     }
-    out->restart = out->restart || is_first;
+    if (is_first) out->tie = TIE_AFRESH;
     out->dt = is_first ? 0 : out->time - t->last_time;
-    t->last_time = out->time;
+    if (out->tie != TIE_ASTRAY) t->last_time = out->time;
     t->number = t->step > t->last - t->number ? t->last + 1 : t->number + t->step;
     return good;
 }

@@ -58,6 +58,7 @@ void field_forget(Field *f) {
 
 void field_copy(const Field *from, Field *to) {
     field_forget(to);
+    to->pelvis = from->pelvis;
     memcpy(to->displacement, from->displacement, (size_t)from->start[LATTICE_LEVELS] * sizeof *to->displacement);
     for (int k = 0; k < from->nmoved; k++) field_set_offset(to, from->moved[k], from->offset[from->moved[k]]);
     for (int k = 0; k < from->ndented; k++) field_set_dent(to, from->dented[k], from->dent[from->dented[k]]);

@@ -160,19 +160,19 @@ static void frame_to_the_letter(Dresser *d, const BodyFrame *body, bool restart,
     stats->pairs_tested += count.pairs_tested;
 }
 
-void dresser_frame(Dresser *d, const BodyFrame *body, double dt, bool restart, Mesh *mesh, FrameStats *stats) {
-    *stats = (FrameStats){.restarted = restart};
+void dresser_frame(Dresser *d, const BodyFrame *body, double dt, Tie tie, Mesh *mesh, FrameStats *stats) {
+    *stats = (FrameStats){.restarted = tie != TIE_GOES_ON};
     double start = clock_seconds();
     follow_pose(&d->follower, &body->pose, d->root);
     stats->global_s = clock_seconds() - start;
     if (d->options.method == METHOD_PAPER) {
-        frame_to_the_letter(d, body, restart, mesh, stats);
+        frame_to_the_letter(d, body, stats->restarted, mesh, stats);
         return;
     }
     Classification found;
     split_by_rule(d, body, stats, &found);
 
-    Wrong w = solver_frame(&d->solver, body, d->root, dt, restart, d->options.method == METHOD_GLOBAL, stats,
+    Wrong w = solver_frame(&d->solver, body, d->root, dt, tie, d->options.method == METHOD_GLOBAL, stats,
                            &found.count);
     tell(&w, stats);
 

@@ -34,6 +34,7 @@ bool solver_reserve(Solver *s, const Fit *fit, const Lattice *lattice, const Dre
     if (!leaves_reserve(&s->leaves, lattice, arena, e) || !leaves_reserve(&s->fresh, lattice, arena, e) ||
         !leaves_reserve(&s->kept, lattice, arena, e) || !leaves_reserve(&s->grid, lattice, arena, e) ||
         !sheet_reserve(&s->sheet, lattice, arena, e) || !push_reserve(&s->push, lattice, arena, e) ||
+        !field_reserve(&s->before, lattice, arena, e) ||
         !settle_reserve(&s->settler, lattice, arena, e) ||
         !tester_reserve(&s->tester, 3 * triangles, triangles, arena, e))
         return false;
@@ -302,12 +303,20 @@ static Wrong rest_and_test(Solver *s, const BodyFrame *body, FrameStats *stats, 
     return w;
 }
 
-Wrong solver_frame(Solver *s, const BodyFrame *body, const Patch *root, double dt, bool restart, bool is_global,
+/* A frame that is astray leaves nothing behind. */
+static void carry(Solver *s, const BodyFrame *body, double dt, Tie tie) {
+    if (tie == TIE_ASTRAY && !s->is_astray) field_copy(&s->push.field, &s->before);
+    if (tie == TIE_GOES_ON && s->is_astray) field_copy(&s->before, &s->push.field);
+    s->is_astray = tie == TIE_ASTRAY;
+    field_carry(&s->push.field, body, dt, tie != TIE_GOES_ON, &s->leaves);
+}
+
+Wrong solver_frame(Solver *s, const BodyFrame *body, const Patch *root, double dt, Tie tie, bool is_global,
                    FrameStats *stats, CrossingCount *count) {
     double start = clock_seconds();
     s->root = root;
     leaves_copy(&s->leaves, &s->fresh);
-    field_carry(&s->push.field, body, dt, restart || is_global, &s->leaves);
+    carry(s, body, dt, is_global ? TIE_AFRESH : tie);
     lay_sheet(s);
     stats->mesh_s = clock_seconds() - start;
     Wrong w = (is_global ? rest_and_test : push_and_test)(s, body, stats, count);

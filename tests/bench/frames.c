@@ -24,7 +24,7 @@ static void dress(void *context) {
     for (int f = 0; f < w->frames; f++) {
         body_frame_pose(&w->wearer.posed, &w->frame[f].pose);
         for (int g = 0; g < w->wardrobe.ngarments; g++) {
-            dresser_frame(w->dresser[g], &w->wearer.posed, w->frame[f].dt, w->frame[f].restart, &mesh, &stats);
+            dresser_frame(w->dresser[g], &w->wearer.posed, w->frame[f].dt, w->frame[f].tie, &mesh, &stats);
             w->sum.pairs_all += stats.pairs_all;
             w->sum.pairs_tested += stats.pairs_tested;
             w->sum.triangles += stats.triangles;
