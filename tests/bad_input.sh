@@ -15,7 +15,7 @@ refused() {
 refuse() {
     rm -rf out.d
     must_fail 3 "$KITSUKE" dress -q -o out.d "$@" || return 1
-    grep -Eq -e "$pattern" err || { echo "no line like: $pattern"; return 1; }
+    says "$pattern" || return 1
     [ "$(grep -Ec '(: error: |^kitsuke: )' err)" -eq 1 ] || { echo 'not exactly one error'; return 1; }
     left=$(find . -path './out.d/*' ! -name summary.csv)
     [ -z "$left" ] || { echo "left behind: $left"; return 1; }

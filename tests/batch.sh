@@ -68,7 +68,7 @@ fi
 refuses() { # refuses PATTERN ARGUMENT...
     pattern=$1
     shift
-    must_fail 3 dress in/walk2.bvh -o bounds "$@" && grep -Eq -e "$pattern" err && [ ! -e bounds/walk2 ]
+    must_fail 3 dress in/walk2.bvh -o bounds "$@" && says "$pattern" && [ ! -e bounds/walk2 ]
 }
 ok '--max-frames' refuses 'in/walk2.bvh:[0-9]+:9: error: 8 frames are more than the limit of 7' --max-frames 7
 ok '--max-joints' refuses 'more than 5 joints' --max-joints 5

@@ -6,9 +6,6 @@ walk=$root/motions/paper-walk.bvh
 skirt=$root/garments/skirt.garment
 commands='compare draw dress inspect verify walk'
 
-says() { # says PATTERN: a line of stderr of the last must_fail matches
-    grep -Eq -e "$1" err || { echo "stderr has no line like: $1"; cat err; return 1; }
-}
 refuses() { # refuses EXIT PATTERN ARGUMENT...
     refusal=$1 pattern=$2
     shift 2

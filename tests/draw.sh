@@ -9,7 +9,7 @@ draw() { "$KITSUKE" draw "$walk" -g "$skirt" "$@"; }
 refuses() { # refuses EXIT PATTERN ARGUMENT...
     refusal=$1 pattern=$2
     shift 2
-    must_fail "$refusal" "$KITSUKE" draw "$@" && grep -Eq -e "$pattern" err
+    must_fail "$refusal" "$KITSUKE" draw "$@" && says "$pattern"
 }
 pictures() { grep -c '<g transform="translate' "$1"; }
 titles() { sed -n 's/^<text[^>]*>\(.*\)<\/text>$/\1/p' "$1" | tr '\n' ';'; }

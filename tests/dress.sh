@@ -7,11 +7,6 @@ skirt=$root/garments/skirt.garment
 trousers=$root/garments/trousers.garment
 
 dress() { "$KITSUKE" dress -q --no-times "$@"; }
-column() { # column NAME FILE
-    awk -F, -v name="$1" '/^#/ { next } at { print $at; next }
-        { for (i = 1; i <= NF; i++) if ($i == name) at = i }' "$2"
-}
-joined() { column "$@" | tr '\n' ' '; }
 list() { (cd "$1" && find . -type f ! -name .done | sort | tr '\n' ' '); }
 count() { find "$1" -type f -name "$2" | wc -l | tr -d ' '; }
 

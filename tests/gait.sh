@@ -51,7 +51,7 @@ refuses() { # refuses PATTERN ARGUMENT...: exit 2, that word, and no file
     shift
     rm -f no.bvh
     must_fail 2 "$KITSUKE" walk "$@" -o no.bvh || return 1
-    grep -Eq -e "$pattern" err || { echo "not said: $pattern"; return 1; }
+    says "$pattern" || return 1
     ls | grep no.bvh && { echo 'a file was written'; return 1; }
     return 0
 }

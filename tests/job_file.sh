@@ -8,10 +8,8 @@ mkdir -p jobs motions
 cp motions/walk.bvh 'motions/two words # and "quotes".bvh'
 cp "$skirt" jobs/
 dress() { "$KITSUKE" dress -q "$@"; }
-column() { awk -F, -v at="$1" '/^#/ || /^motion,/ { next } { printf "%s ", $at }' "$2"; }
 refuses() { # refuses PATTERN: the job x.job, exit 2 and a line of stderr
-    must_fail 2 "$KITSUKE" dress --job jobs/x.job || return 1
-    grep -Eq -e "$1" err || { echo "no line like: $1"; return 1; }
+    must_fail 2 "$KITSUKE" dress --job jobs/x.job && says "$1"
 }
 
 cat >jobs/plain.job <<'JOB'
@@ -39,11 +37,11 @@ output piped
 frames 1
 format none
 JOB
-is 'from standard input, relative to the current folder' "$(column 4 piped/summary.csv)" '1 '
+is 'from standard input, relative to the current folder' "$(joined frames piped/summary.csv)" '1 '
 ok 'what the command line says wins' dress --job jobs/plain.job --frames 1:3 --body-detail 8 --no-no-body -o wins
 is 'a value, a switch and a path' "$(find wins -name '*.obj' | wc -l | tr -d ' ')" 6
 dress --job jobs/plain.job -o lists motions/*.bvh -f
-is 'a list on the command line replaces the list' "$(column 4 lists/summary.csv)" '2 2 '
+is 'a list on the command line replaces the list' "$(joined frames lists/summary.csv)" '2 2 '
 "$KITSUKE" dress --job jobs/plain.job -v -f 2>err
 like 'a switch wins over the one it contradicts' "$(cat err)" 'together'
 
@@ -96,17 +94,17 @@ same 'other commands have jobs too' a.bvh b.bvh
 # Lists of files
 printf '%s\n' motions/walk.bvh "$odd" '' motions/nowhere.bvh >list
 must_fail 3 "$KITSUKE" dress -q --files-from list -g "$skirt" -o listed --frames 1 --format none >log
-is '--files-from: one path in a line, blanks and # and all' "$(column 3 listed/summary.csv)" 'ok ok refused '
+is '--files-from: one path in a line, blanks and # and all' "$(joined status listed/summary.csv)" 'ok ok refused '
 find motions -name '*.bvh' -print0 | "$KITSUKE" dress -q --files-from - -g "$skirt" -o zero --frames 1 --format none
-is 'separated by NUL from standard input, with a newline in a name' "$(column 3 zero/summary.csv | wc -w)" 3
+is 'separated by NUL from standard input, with a newline in a name' "$(column status zero/summary.csv | wc -w)" 3
 ok 'a list that is not there: exit 3' must_fail 3 "$KITSUKE" dress --files-from nowhere -g "$skirt" -o none
 : >empty
 ok 'an empty list: exit 3' must_fail 3 "$KITSUKE" dress --files-from empty -g "$skirt" -o none
 ok 'standard input as a motion and as the list' must_fail 2 "$KITSUKE" dress --files-from - - -g "$skirt" -o none
 dress 'motions/*.bvh' -g "$skirt" -o glob --frames 1 --format none
-is 'a pattern in quotes' "$(column 3 glob/summary.csv | wc -w)" 3
+is 'a pattern in quotes' "$(column status glob/summary.csv | wc -w)" 3
 cp motions/walk.bvh 'motions/[x].bvh'
 dress 'motions/[x].bvh' -g "$skirt" -o bracket --frames 1 --format none
-is 'a name that looks like a pattern is a name first' "$(column 1 bracket/summary.csv)" '[x] '
+is 'a name that looks like a pattern is a name first' "$(joined motion bracket/summary.csv)" '[x] '
 ok 'a pattern that matches nothing: exit 3' must_fail 3 dress 'motions/*.amc' -g "$skirt" -o none
 done_testing

@@ -10,6 +10,9 @@
 #     same 'says what' FILE GOLDEN       equal files; UPDATE_GOLDEN=1 writes GOLDEN anew
 #     must_fail CODE COMMAND...          for ok: exactly that exit code; stdout and stderr are
 #                                        left in the files out and err
+#     says PATTERN                       for ok: a line of that err matches
+#     column NAME FILE                   the values of a column of a CSV file, one in a line
+#     joined NAME FILE                   all in one, a space behind each
 #     skip 'says what' 'why'             a test that cannot be made here
 #     skip_all 'why'                     nor any of them
 set -u
@@ -86,6 +89,16 @@ must_fail() {
     echo "exit code $got, wanted $wanted: $*"
     return 1
 }
+
+says() {
+    grep -Eq -e "$1" err || { echo "stderr has no line like: $1"; cat err; return 1; }
+}
+
+column() {
+    awk -F, -v name="$1" '/^#/ { next } at { print $at; next }
+        { for (i = 1; i <= NF; i++) if ($i == name) at = i }' "$2"
+}
+joined() { column "$@" | tr '\n' ' '; }
 
 skip() {
     tests=$((tests + 1))

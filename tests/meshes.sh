@@ -21,8 +21,8 @@ dark() {
         for (k = 1; k < 4; k++)
             if (x * q[m[k], 1] + y * q[m[k], 2] + z * q[m[k], 3] <= 0) print FILENAME ": away from: " $0 }' "$@"
 }
-# column NAME: of verify's table, garment by garment, each value once
-column() {
+# by_garment NAME: a column of verify's table, garment by garment, each value once
+by_garment() {
     awk -F, -v name="$1" '/^#/ { next } !at { while ($++at != name); while ($++by != "garment"); next }
         !seen[$by, $at]++ { print $by ":" $at }' told | sort | tr '\n' ' '
 }
@@ -42,8 +42,8 @@ for topology in adaptive fixed; do
             --frames 10::40 -g "$garments/skirt.garment" -g "$garments/trousers.garment" \
             -g "$garments/paper-skirt.garment" -g "$garments/tshirt.garment"
         "$KITSUKE" verify $out >told 2>/dev/null
-        is 'no cracks' "$(column cracks)" 'paper-skirt:0 skirt:0 trousers:0 tshirt:0 '
-        is 'as many openings as the garments have' "$(column borders)" 'paper-skirt:2 skirt:2 trousers:3 tshirt:4 '
+        is 'no cracks' "$(by_garment cracks)" 'paper-skirt:0 skirt:0 trousers:0 tshirt:0 '
+        is 'as many openings as the garments have' "$(by_garment borders)" 'paper-skirt:2 skirt:2 trousers:3 tshirt:4 '
     done
     is "faces of $topology are whole, have an area, and normals on their side" \
         "$(dark squat-$topology/squat/[pst]*.0050.obj | head -3)" ''

@@ -4,10 +4,7 @@
 
 skirt=$root/garments/skirt.garment trousers=$root/garments/trousers.garment
 dress() { "$KITSUKE" dress -q --no-times --no-body -g "$skirt" "$@"; }
-column() { awk -F, -v name="$1" '/^#/ { next } !c { for (c = 1; $c != name; c++); next } { print $c }' "$2"; }
-limbs() { # frames in which a limb goes through the garment
-    column limb_frames "$1/summary.csv" | tr '\n' ' '
-}
+limbs() { joined limb_frames "$1/summary.csv"; } # frames in which a limb goes through the garment
 
 # The paper's walk; in its middle the arms come in by 25 degrees and go out again.
 awk '/^Frame Time/ { print; rows = 1; next } !rows { print; next }

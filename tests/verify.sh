@@ -3,7 +3,6 @@
 . "$(dirname "$0")/lib.sh"
 
 walk=$root/motions/paper-walk.bvh
-says() { grep -Eq -e "$1" err || { echo "stderr has no line like: $1"; cat err; return 1; }; }
 verify() { # verify CODE ARGUMENT...: with its table in `table`, without the comment lines
     wanted=$1 got=0
     shift
@@ -11,9 +10,7 @@ verify() { # verify CODE ARGUMENT...: with its table in `table`, without the com
     grep -v '^#' raw >table
     [ "$got" -eq "$wanted" ] || { echo "exit code $got, wanted $wanted: verify $*"; cat err; return 1; }
 }
-column() { # column NAME: of the table, in one line
-    awk -F, -v name="$1" 'at { printf "%s ", $at; next } { for (i = 1; i <= NF; i++) if ($i == name) at = i }' table
-}
+told() { joined "$1" table; }
 
 # cube FILE LOW HIGH: with a group
 cube() {
@@ -26,27 +23,27 @@ cube() {
 cube a.0001.obj 0 1
 cube b.0001.obj 0.5 1.5
 ok 'two cubes that interpenetrate: exit 1' verify 1 --garment 'b.*.obj' --body 'a.*.obj'
-is 'their pairs' "$(column pairs)" '18 '
-is 'the corner inside' "$(column inside)" '1 '
-is 'its depth' "$(column deepest)" '0.500000 '
-is 'the part' "$(column worst_part)" 'box '
-is 'the name of the garment is that of its files' "$(column garment)" 'b '
+is 'their pairs' "$(told pairs)" '18 '
+is 'the corner inside' "$(told inside)" '1 '
+is 'its depth' "$(told deepest)" '0.500000 '
+is 'the part' "$(told worst_part)" 'box '
+is 'the name of the garment is that of its files' "$(told garment)" 'b '
 like 'and a summary' "$(cat err)" '^1 mesh, 1 with findings: 18 pairs, 1 vertices inside, deepest 500.00 mm, 0 cracks$'
 ok '--unit' verify 1 --garment 'b.*.obj' --body 'a.*.obj' --unit cm
-is 'the depth in metres' "$(column deepest)" '0.005000 '
+is 'the depth in metres' "$(told deepest)" '0.005000 '
 ok '--list' verify 1 --garment 'b.*.obj' --body 'a.*.obj' --list -q
-is 'each pair, each vertex' "$(column kind | tr ' ' '\n' | sort | uniq -c | tr -s ' \n' ' ')" ' 1 inside 18 pair '
+is 'each pair, each vertex' "$(column kind table | sort | uniq -c | tr -s ' \n' ' ')" ' 1 inside 18 pair '
 is 'the vertex that is inside' "$(grep inside table)" ',1,b,inside,1,box,7,0.500000,0.500000,0.500000,0.500000'
 is '--quiet says nothing' "$(cat err)" ''
 cube b.0001.obj 1 2
 ok 'cubes that share a corner: exit 1' verify 1 --garment 'b.*.obj' --body 'a.*.obj'
-is 'nothing inside' "$(column inside)" '0 '
+is 'nothing inside' "$(told inside)" '0 '
 cube b.0001.obj 1.5 2
 ok 'cubes apart: exit 0' verify 0 --garment 'b.*.obj' --body 'a.*.obj'
 cube b.0001.obj 0.25 0.75
 ok 'inside without a crossing: exit 1' verify 1 --garment 'b.*.obj' --body 'a.*.obj'
-is 'no pair' "$(column pairs)" '0 '
-is 'all corners inside' "$(column inside)" '8 '
+is 'no pair' "$(told pairs)" '0 '
+is 'all corners inside' "$(told inside)" '8 '
 ok 'other parts only' verify 2 --garment 'b.*.obj' --body 'a.*.obj' --parts box,lid
 ok 'a part that is not there, with those that are' says "has no group 'lid'; it has box"
 ok '--parts' verify 1 --garment 'b.*.obj' --body 'a.*.obj' --parts box
@@ -55,21 +52,21 @@ ok '--parts' verify 1 --garment 'b.*.obj' --body 'a.*.obj' --parts box
 for n in 0001 0002 0003 0004 0005; do cube m.$n.obj 1.5 2; cube body.$n.obj 0 1; done
 for pattern in 'm.*.obj' 'm.####.obj' 'm.%04d.obj' 'm.%d.obj'; do
     ok "pattern $pattern" verify 0 --garment "$pattern" --body 'body.*.obj'
-    is "pattern $pattern: all frames" "$(column frame)" '1 2 3 4 5 '
+    is "pattern $pattern: all frames" "$(told frame)" '1 2 3 4 5 '
 done
 ok 'a body without a number stands still' verify 0 --garment 'm.*.obj' --body body.0001.obj
-is 'in all frames' "$(column frame)" '1 2 3 4 5 '
+is 'in all frames' "$(told frame)" '1 2 3 4 5 '
 ok 'two files without a number' verify 0 --garment m.0001.obj --body body.0001.obj
-is 'are one frame' "$(column frame)" '1 '
+is 'are one frame' "$(told frame)" '1 '
 ok '--frames' verify 0 --garment 'm.*.obj' --body 'body.*.obj' --frames 2::2
-is 'the selected ones' "$(column frame)" '2 4 '
+is 'the selected ones' "$(told frame)" '2 4 '
 ok 'frames that are not there' verify 2 --garment 'm.*.obj' --body 'body.*.obj' --frames 7:9
 ok 'a pattern that nothing fits' verify 3 --garment 'x.*.obj' --body 'body.*.obj'
 ok 'its message' says "no file is called like 'x\\.\\*\\.obj'"
 rm m.0003.obj
 ok 'a missing frame: exit 3' verify 3 --garment 'm.*.obj' --body 'body.*.obj'
 ok 'with its number' says 'm\.\*\.obj: error: frame 3 is missing'
-is 'the others are there' "$(column frame)" '1 2 4 5 '
+is 'the others are there' "$(told frame)" '1 2 4 5 '
 rm body.0003.obj body.0002.obj
 ok 'missing on one side and on both' verify 3 --garment 'm.*.obj' --body 'body.*.obj'
 ok 'a range' says 'body\.\*\.obj: error: frames 2 to 3 are missing'
@@ -79,7 +76,7 @@ ok 'a row of every fourth frame has no gap' verify 0 --garment 'm.*.obj' --body 
 printf 'v 1 2 3\nv 1 2 nonsense\n' >m.0005.obj
 ok 'a file that cannot be read: exit 3' verify 3 --garment 'm.*.obj' --body 'body.*.obj'
 ok 'with its place' says "m\.0005\.obj:2:7: error: expected a number, found 'nonsense'"
-is 'and the frame before' "$(column frame)" '1 '
+is 'and the frame before' "$(told frame)" '1 '
 printf 'v 1 2 3\n' >body.0005.obj
 ok 'a mesh without triangles: exit 3' verify 3 --garment 'm.*.obj' --body 'body.*.obj'
 ok 'is no mesh' says 'body\.0005\.obj: error: no triangles'
@@ -100,35 +97,35 @@ cube m.0002.obj 3 4
 cube m.0003.obj 6 7
 cube still.obj 0 1
 ok '--acceleration' verify 0 --garment 'm.*.obj' --body still.obj --acceleration --rate 1
-is 'over a frame and the two before it' "$(column acceleration)" '  3.4641 '
-is 'that of the body' "$(column body_acceleration)" '  0.0000 '
+is 'over a frame and the two before it' "$(told acceleration)" '  3.4641 '
+is 'that of the body' "$(told body_acceleration)" '  0.0000 '
 mv m.0003.obj m.0005.obj
 mv m.0002.obj m.0003.obj
 ok 'every second frame' verify 0 --garment 'm.*.obj' --body still.obj --acceleration --rate 2
-is 'is half the rate' "$(column acceleration)" '  3.4641 '
+is 'is half the rate' "$(told acceleration)" '  3.4641 '
 mv m.0005.obj m.0004.obj
 ok 'frames unequally far apart' verify 3 --garment 'm.*.obj' --body still.obj --acceleration --rate 2
-is 'have none' "$(column acceleration)" '   '
+is 'have none' "$(told acceleration)" '   '
 
 # Our own
 skirt=$root/garments/skirt.garment trousers=$root/garments/trousers.garment
 "$KITSUKE" dress "$walk" -g "$skirt" -g "$trousers" -o out -q --format obj,drc --frames 1::12
 hips=pelvis,spine,chest,left_thigh,right_thigh,left_shin,right_shin
 ok 'the walk of the paper is clean against torso and legs' verify 0 out --parts $hips
-is 'the motion is named' "$(column motion | tr ' ' '\n' | sort -u | tr '\n' ' ')" 'paper-walk '
-is 'borders: skirt 2, trousers 3' "$(column borders | cut -c 1-8)" '2 3 2 3 '
+is 'the motion is named' "$(column motion table | sort -u)" paper-walk
+is 'borders: skirt 2, trousers 3' "$(told borders | cut -c 1-8)" '2 3 2 3 '
 ok '--landmarks' verify 0 out --parts $hips --landmarks
-is 'hips are covered' "$(column cover_hips | tr ' ' '\n' | sort -u | tr '\n' ' ')" '1.0000 '
-is 'knees too' "$(column cover_knees | tr ' ' '\n' | sort -u | tr '\n' ' ')" '1.0000 '
+is 'hips are covered' "$(column cover_hips table | sort -u)" 1.0000
+is 'knees too' "$(column cover_knees table | sort -u)" 1.0000
 is 'a row for each mesh' "$(wc -l <table | tr -d ' ')" "$(($(find out -name '*.obj' ! -name 'body*' | wc -l) + 1))"
 "$KITSUKE" dress "$walk" -g "$skirt" -o fast -q --rate 50 --frames 1:3
 ok 'the rate stands in stats.csv' verify 0 fast --parts $hips --acceleration
-column acceleration >told
+told acceleration >told
 ok 'or is given' verify 0 fast --parts $hips --acceleration --rate 50
-is 'with the same result' "$(column acceleration)" "$(cat told)"
+is 'with the same result' "$(told acceleration)" "$(cat told)"
 like 'which is one' "$(cat told)" '^  [0-9.]+ $'
 ok 'another rate' verify 0 fast --parts $hips --acceleration --rate 30
-ok 'is another result' test "$(column acceleration)" != "$(cat told)"
+ok 'is another result' test "$(told acceleration)" != "$(cat told)"
 ok 'all frames' verify 0 out --parts $hips
 cp table whole
 ok 'a folder of one motion' verify 0 out/paper-walk --parts $hips
@@ -138,7 +135,7 @@ sed 's/^ring hip.*/ring hip pelvis 0.40 size 0.05 0.05 0.05/' "$skirt" >tight.ga
 for unit in m cm; do
     "$KITSUKE" dress "$walk" -g tight.garment -o $unit -q --method global --output-unit $unit --frames 1:1
     ok "a skirt in the body is found ($unit)" verify 1 $unit
-    column deepest >$unit.depth
+    told deepest >$unit.depth
     like 'its depth is in metres' "$(cat $unit.depth)" '^0\.0[0-9]+ $'
 done
 ok 'a body in centimetres and a garment in metres: exit 3' \
