@@ -144,20 +144,39 @@ static unsigned limbs_at(const Lattice *l, const Patch *root, const BodyFrame *b
     return limbs & ~l->fit->patch[patch].collide;
 }
 
+/* Is any place of a patch, of every other row and column, inside of a part that comes to it from outside? point: the
+   places of the global shape, (side / 2 + 1)^2. */
+static bool is_inside_limb(const Lattice *l, const BodyFrame *body, int patch, int part, const Vec3 *point) {
+    enum { LOT = 64 };
+    double distance[LOT];
+    Vec3 at[LOT];
+    int rows = l->side / 2 + 1, n = 0;
+    for (int k = 0; k < rows * rows; k++) {
+        bool may_be = !body_frame_far(body, part, point[k], 0) &&
+                      !(l->collide[lattice_place(l, patch, k / rows * 2, k % rows * 2)] & part_bit(body, part));
+        if (may_be) at[n++] = point[k];
+        if (n < LOT && k + 1 < rows * rows) continue;
+        if (n > 0) body_frame_distances(body, part, at, n, 0, distance);
+        for (int i = 0; i < n; i++)
+            if (distance[i] < 0) return true;
+        n = 0;
+    }
+    return false;
+}
+
 /* Lets the cloth give way to limbs that touch it from outside, which the rule knows nothing of: splits root
    patches once where one is inside of them. */
 static void open_to_limbs(const Classifier *c, const Patch *root, const BodyFrame *body, Leaves *leaves) {
-    enum { LEVEL = 1, STEP = 2 };
     const Lattice *l = c->lattice;
-    const LatticeStep *step = l->level[LEVEL].step;
+    const GridRows *rows = &c->rows[l->depth - 1];
     for (int p = 0; p < l->fit->npatches; p++) {
         unsigned limbs = limbs_at(l, root, body, p);
-        for (int i = 0; limbs && i <= l->side; i += STEP)
-            for (int j = 0; j <= l->side; j += STEP) {
-                int place = lattice_place(l, p, i, j);
-                if (body_frame_inside(body, limbs & ~l->collide[place], lattice_point(l, root, place)))
-                    leaves_split(leaves, p, LEVEL, step[i].cell, step[j].cell);
-            }
+        if (limbs) grid_points(&root[p], rows, rows, c->position, NULL);
+        for (int k = 0; limbs && k < body->body->nparts; k++) {
+            if (!(limbs & part_bit(body, k)) || !is_inside_limb(l, body, p, k, c->position)) continue;
+            leaves_split(leaves, p, 1, 0, 0);
+            break;
+        }
     }
 }
 
