@@ -21,6 +21,7 @@ typedef struct {
     Rigid to_part[BODY_PARTS_MAX]; /* world (metres) -> part frame */
     Mat3 to_world[BODY_PARTS_MAX]; /* part frame -> world, directions */
     Box box[BODY_PARTS_MAX];       /* of each part; world, metres; a little larger than it */
+    Box *block;                    /* of every sixteen vertices of a part's skin before anything pressed on it */
     Contacts contacts[BODY_PARTS_MAX]; /* what each part gives way to in this pose */
     double room;                   /* that parts leave between them, metres */
     Give *give;                    /* per vertex of the skin */
@@ -71,6 +72,12 @@ static inline bool body_frame_far(const BodyFrame *f, int part, Vec3 p, double f
     const Box *b = &f->box[part];
     return p.x < b->low.x - far || p.x > b->high.x + far || p.y < b->low.y - far || p.y > b->high.y + far ||
            p.z < b->low.z - far || p.z > b->high.z + far;
+}
+
+/* Where the boxes round a part's vertices begin. */
+enum { BODY_BLOCK = 16 };
+static inline Box *body_frame_blocks(const BodyFrame *f, int part) {
+    return f->block + f->body->part[part].first_vertex / BODY_BLOCK + part;
 }
 
 /* Bit 1 << role of a part. */

@@ -13,7 +13,8 @@ bool body_frame_init(BodyFrame *f, const Body *body, double unit, Arena *arena, 
     f->position = ARENA_NEW(arena, Vec3, body->skin.nvertices, e);
     f->normal = ARENA_NEW(arena, Vec3, 2 * body->skin.nvertices, e);
     f->give = ARENA_NEW(arena, Give, body->skin.nvertices, e);
-    if (!f->position || !f->normal || !f->give) return false;
+    f->block = ARENA_NEW(arena, Box, body->skin.nvertices / BODY_BLOCK + body->nparts, e);
+    if (!f->position || !f->normal || !f->give || !f->block) return false;
     for (int p = 0; p < body->nparts; p++)
         if (!crossing_reserve(&f->edges[p], body->part[p].nedges, arena, e) ||
             !crossing_reserve(&f->triangles[p], body->part[p].ntriangles, arena, e))
@@ -26,8 +27,15 @@ static const double BULGE = 0.02;
 
 static void find_box(BodyFrame *f, int part) {
     const BodyPart *p = &f->body->part[part];
-    Box b = box_empty();
-    for (int v = p->first_vertex; v < p->first_vertex + p->nvertices; v++) box_add(&b, f->position[v]);
+    Box b = box_empty(), *blocks = body_frame_blocks(f, part);
+    for (int first = 0; first < p->nvertices; first += BODY_BLOCK) {
+        Box *block = &blocks[first / BODY_BLOCK];
+        *block = box_empty();
+        for (int v = first; v < p->nvertices && v < first + BODY_BLOCK; v++)
+            box_add(block, f->position[p->first_vertex + v]);
+        box_add(&b, block->low);
+        box_add(&b, block->high);
+    }
     Vec3 room = vec_scale(vec(1, 1, 1), BULGE * vec_dist(b.low, b.high));
     f->box[part] = (Box){vec_sub(b.low, room), vec_add(b.high, room)};
 }

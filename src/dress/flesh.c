@@ -18,13 +18,25 @@ static void add(Block *block, int vertex, Vec3 skin) {
     block->skin[block->n++] = skin;
 }
 
-/* The vertices of a part from *v on that the box of another is near to. False where there are none left. */
+static bool boxes_near(Box a, Box b, double room) {
+    Vec3 grown = vec(room, room, room);
+    return box_touches((Box){vec_sub(a.low, grown), vec_add(a.high, grown)}, b);
+}
+
+/* The vertices of a part from its *v-th on that the box of another is near to. False where there are none left. */
 static bool gather(const BodyFrame *f, int part, int other, int *v, Block *out) {
     const BodyPart *p = &f->body->part[part];
-    int end = p->first_vertex + p->nvertices;
+    const Box *blocks = body_frame_blocks(f, part);
     out->n = 0;
-    for (; *v < end && out->n < BLOCK; ++*v)
-        if (!body_frame_far(f, other, f->position[*v], f->room)) add(out, *v, f->position[*v]);
+    while (*v < p->nvertices && out->n <= BLOCK - BODY_BLOCK) {
+        int end = *v + BODY_BLOCK < p->nvertices ? *v + BODY_BLOCK : p->nvertices;
+        bool is_near = boxes_near(blocks[*v / BODY_BLOCK], f->box[other], f->room);
+        for (int k = *v; is_near && k < end; k++) {
+            Vec3 skin = f->position[p->first_vertex + k];
+            if (!body_frame_far(f, other, skin, f->room)) add(out, p->first_vertex + k, skin);
+        }
+        *v = end;
+    }
     return out->n > 0;
 }
 
@@ -35,7 +47,7 @@ static bool press(BodyFrame *f, int part, const Contact *contact) {
     Vec3 away[BLOCK], normal[BLOCK];
     bool any = false;
     Block all, near;
-    for (int v = f->body->part[part].first_vertex; gather(f, part, contact->other, &v, &all);) {
+    for (int v = 0; gather(f, part, contact->other, &v, &all);) {
         body_frame_unpressed_many(f, contact->other, all.skin, all.n, f->room, distance, away);
         near.n = 0;
         for (int i = 0; i < all.n; i++) {
@@ -64,11 +76,6 @@ static void find_fold(const BodyFrame *f, int upper, int lower, Contact *of_uppe
     Vec3 up = vec_scale(mat_column(f->to_world[upper], 1), -1), down = mat_column(f->to_world[lower], 1);
     Section s = body_section_at(part, 0, NULL);
     yield_fold(joint, up, down, fmax(s.front, s.back), of_upper, of_lower);
-}
-
-static bool boxes_near(Box a, Box b, double room) {
-    Vec3 grown = vec(room, room, room);
-    return box_touches((Box){vec_sub(a.low, grown), vec_add(a.high, grown)}, b);
 }
 
 static void meet(BodyFrame *f, int a, int b) {

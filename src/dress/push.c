@@ -324,13 +324,13 @@ void push_rest(Push *p, const Sheet *sheet) {
 }
 
 void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
+    double moved = INFINITY;
     field_drop_dents(&p->field);
-    for (int round = 0; round < ROUNDS_MAX; round++) {
+    for (int round = 0; round < ROUNDS_MAX && moved >= REACH * p->field.scale; round++) {
         find_samples(p, body, sheet);
-        double moved = sweep_all(p, body, sheet, result);
-        if (moved < REACH * p->field.scale) break; /* nobody can have come near who was not */
+        moved = sweep_all(p, body, sheet, result); /* when it is less nobody can have come near who was not */
     }
-    find_points(p, sheet);
+    if (moved > 0) find_points(p, sheet);
 }
 
 void push_clear(const Push *p, const Sheet *sheet, bool *clear) {
