@@ -9,6 +9,7 @@ typedef struct {
     const Fit *fit;
     const Figure *figure;
     const Body *body;
+    Quat turn[ROLE_COUNT];               /* of every bone in this pose: the way it has turned */
     Vec3 (*curve)[4];                    /* control points of every curve in this pose */
     Vec3 (*slope)[GARMENT_ROWS_MAX][2][4]; /* per panel and row: derivative across the rows, as taken by the
                                               patch above it and by the one below */

@@ -101,10 +101,17 @@ static inline Mat3 mat_from_quat(Quat q) {
                    {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
                    {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
 }
+static inline double lerp(double a, double b, double t) { return a + t * (b - a); }
+
+/* Of the two that are the same rotation as q, the one on the side of `like`. */
+static inline Quat quat_like(Quat q, Quat like) {
+    double dot = q.w * like.w + q.x * like.x + q.y * like.y + q.z * like.z;
+    return dot < 0 ? (Quat){-q.w, -q.x, -q.y, -q.z} : q;
+}
 /* Shortest-arc normalised interpolation. */
 static inline Quat quat_nlerp(Quat a, Quat b, double t) {
-    double s = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z < 0 ? -t : t;
-    Quat q = {a.w * (1 - t) + b.w * s, a.x * (1 - t) + b.x * s, a.y * (1 - t) + b.y * s, a.z * (1 - t) + b.z * s};
+    b = quat_like(b, a);
+    Quat q = {lerp(a.w, b.w, t), lerp(a.x, b.x, t), lerp(a.y, b.y, t), lerp(a.z, b.z, t)};
     double n = 1.0 / sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
     return (Quat){q.w * n, q.x * n, q.y * n, q.z * n};
 }
@@ -119,7 +126,6 @@ static inline void box_add(Box *b, Vec3 p) {
     b->high = vec(p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y, p.z > high.z ? p.z : high.z);
 }
 
-static inline double lerp(double a, double b, double t) { return a + t * (b - a); }
 static inline double clamp(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 /* 0 below a, 1 above b, 3t^2 - 2t^3 between. */
 static inline double smoothstep(double a, double b, double x) {

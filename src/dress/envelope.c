@@ -190,11 +190,12 @@ Vec3 envelope_point(const Envelope *env, double s, double x, double z) {
     return vec_lerp(turning, linear, bend.hangs);
 }
 
-/* By how much a direction is bent forwards from that of the pelvis, 0 to pi; nothing for one to the side. */
-static double flexion_of(const Envelope *env, Vec3 direction) {
-    double down = clamp(vec_dot(direction, env->down), -1, 1);
-    double forwards = vec_dot(direction, mat_column(env->pelvis, 2));
-    return acos(down) * smoothstep(0, 0.5, forwards / fmax(sqrt(1 - down * down), 1e-6));
+/* By how much a thigh is bent forwards from the direction of the pelvis, 0 to pi; nothing for one to the side or back.
+   One that points up has come there forwards. */
+static double flexion_of(const Envelope *env, Vec3 thigh) {
+    double down = clamp(vec_dot(thigh, env->down), -1, 1), flexion = acos(down);
+    double forwards = vec_dot(thigh, mat_column(env->pelvis, 2)) / fmax(sqrt(1 - down * down), 1e-6);
+    return flexion * fmax(smoothstep(0, 0.5, forwards), smoothstep(120 * PI / 180, 150 * PI / 180, flexion));
 }
 
 /* Where the lap begins: a thigh bent far lies against the belly, and comes out of it farther down. */

@@ -51,20 +51,37 @@ bool follow_reserve(Follower *f, const Fit *fit, const Figure *figure, const Bod
     return true;
 }
 
+/* A rotation is two quaternions, and between two bones a blend goes the one way round or the other. A bone is taken to
+   have come the shorter way from the one that it hangs on; a thigh the shorter way from a seat, for hips bend
+   forwards to 180 degrees and more, but hardly back. */
+static void find_turns(Follower *f, const Pose *pose) {
+    static const double SEAT = 60 * PI / 180;
+    for (int r = 0; r < ROLE_COUNT; r++) {
+        bool begins = r > 0 && role_limb((Role)r) != role_limb((Role)(r - 1));
+        bool is_thigh = r == ROLE_LEFT_THIGH || r == ROLE_RIGHT_THIGH;
+        int on = is_thigh ? ROLE_PELVIS : begins ? ROLE_CHEST : r > 0 ? r - 1 : r;
+        Quat like = r > 0 ? f->turn[on] : (Quat){1, 0, 0, 0};
+        if (is_thigh) {
+            Mat3 seat = mat_mul(pose->bone[on].r, mat_axis_angle(vec(-1, 0, 0), SEAT));
+            like = quat_like(quat_from_mat(seat), like);
+        }
+        f->turn[r] = quat_like(quat_from_mat(pose->bone[r].r), like);
+    }
+}
+
 /* Weighted bones as one rigid motion, by dual quaternions (Kavan et al. 2007): between two bones
    of a joint it turns about the joint, so a knee's ring keeps its width however far it bends. */
-static Rigid blend(const Pose *pose, const Binding *b) {
-    Quat mean = {0, 0, 0, 0}, first = quat_from_mat(pose->bone[b->bone[0]].r);
+static Rigid blend(const Follower *f, const Pose *pose, const Binding *b) {
+    Quat mean = {0, 0, 0, 0};
     Vec3 dual = {0, 0, 0}; /* vector and scalar part of the sum of t q, that is twice the dual part */
     double dual_w = 0;
     for (int i = 0; i < b->n; i++) {
-        const Rigid *g = &pose->bone[b->bone[i]];
-        Quat q = quat_from_mat(g->r);
-        Vec3 v = {q.x, q.y, q.z};
-        double s = q.w * first.w + q.x * first.x + q.y * first.y + q.z * first.z < 0 ? -b->weight[i] : b->weight[i];
+        Quat q = f->turn[b->bone[i]];
+        Vec3 v = {q.x, q.y, q.z}, t = pose->bone[b->bone[i]].t;
+        double s = b->weight[i];
         mean = (Quat){mean.w + s * q.w, mean.x + s * q.x, mean.y + s * q.y, mean.z + s * q.z};
-        dual = vec_mad(dual, vec_add(vec_scale(g->t, q.w), vec_cross(g->t, v)), s);
-        dual_w -= s * vec_dot(g->t, v);
+        dual = vec_mad(dual, vec_add(vec_scale(t, q.w), vec_cross(t, v)), s);
+        dual_w -= s * vec_dot(t, v);
     }
     double n = sqrt(mean.w * mean.w + mean.x * mean.x + mean.y * mean.y + mean.z * mean.z);
     if (n < 1e-6) return pose->bone[b->bone[0]]; /* bones turned against each other: no mean */
@@ -75,23 +92,24 @@ static Rigid blend(const Pose *pose, const Binding *b) {
 
 /* An inner point of a half arc that its middle station shapes; `node` is the arc's end. A handle
    never shrinks below a share of its rest length, or a leg bent far would turn it over. */
-static Vec3 shaped_handle(const FitCurve *curve, int end, const Pose *pose, Vec3 node) {
+static Vec3 shaped_handle(const Follower *f, const FitCurve *curve, int end, const Pose *pose, Vec3 node) {
     static const double LEAST = 0.3;
     Vec3 rest = curve->rest[1 + end], arm = vec_sub(rest, curve->rest[3 * end]);
-    Vec3 wanted = rigid_apply(blend(pose, &curve->middle), rest);
-    Vec3 direction = vec_unit_or(mat_apply(blend(pose, &curve->turn[end]).r, arm), arm);
+    Vec3 wanted = rigid_apply(blend(f, pose, &curve->middle), rest);
+    Vec3 direction = vec_unit_or(mat_apply(blend(f, pose, &curve->turn[end]).r, arm), arm);
     return vec_mad(node, direction, fmax(vec_dot(vec_sub(wanted, node), direction), LEAST * vec_len(arm)));
 }
 
 static void curves_by_bones(Follower *f, const Pose *pose) {
+    find_turns(f, pose);
     for (int c = 0; c < f->fit->ncurves; c++) {
         const FitCurve *curve = &f->fit->curve[c];
         for (int end = 0; end < 2; end++) {
             const FitNode *node = &f->fit->node[curve->node[end]];
-            Rigid g = blend(pose, &node->binding);
+            Rigid g = blend(f, pose, &node->binding);
             Vec3 at = f->curve[c][3 * end] = rigid_apply(g, curve->rest[3 * end]);
             f->curve[c][1 + end] =
-                curve->middle.n ? shaped_handle(curve, end, pose, at) : rigid_apply(g, curve->rest[1 + end]);
+                curve->middle.n ? shaped_handle(f, curve, end, pose, at) : rigid_apply(g, curve->rest[1 + end]);
         }
     }
 }
