@@ -39,8 +39,21 @@ bool yield_concerns(Role a, Role b) {
 }
 
 /* Captured legs that swing past each other pass through each other by more than flesh would give. */
-static const double SHIN_TO_SHIN = 0.032;
-static bool is_shin(Role r) { return r == ROLE_LEFT_SHIN || r == ROLE_RIGHT_SHIN; }
+static double softness_of_legs(Role role) {
+    switch (role) {
+    case ROLE_LEFT_SHIN:
+    case ROLE_RIGHT_SHIN: return 0.032;
+    case ROLE_LEFT_FOOT:
+    case ROLE_RIGHT_FOOT:
+    case ROLE_LEFT_TOE:
+    case ROLE_RIGHT_TOE: return 0.020;
+    default: return softness(role);
+    }
+}
+static bool are_legs(Role a, Role b) {
+    int leg = role_limb(ROLE_LEFT_THIGH);
+    return role_limb(a) != role_limb(b) && role_limb(a) >= leg && role_limb(b) >= leg;
+}
 
 /* Parts that meet at a joint of the body: at its outside they are one surface, and only where they
    fold against each other do they press. */
@@ -52,8 +65,8 @@ static bool share_joint(Role a, Role b) {
 }
 
 void yield_contact(Role a, Role b, double scale, Contact *of_a, Contact *of_b) {
-    double soft_a = softness(a), soft_b = softness(b);
-    if (is_shin(a) && is_shin(b)) soft_a = soft_b = SHIN_TO_SHIN;
+    bool legs = are_legs(a, b);
+    double soft_a = legs ? softness_of_legs(a) : softness(a), soft_b = legs ? softness_of_legs(b) : softness(b);
     *of_a = (Contact){.share = soft_a / (soft_a + soft_b), .most = soft_a * scale, .folds = share_joint(a, b)};
     *of_b = (Contact){.share = 1 - of_a->share, .most = soft_b * scale, .folds = of_a->folds};
 }
