@@ -52,9 +52,24 @@ ALWAYS int find_near(const BodyPart *part, const Lanes *p, double far, int near[
     return any;
 }
 
-/* The five values and their slopes at heights y that are not below `from`, in interval s between sections. */
-ALWAYS void shapes_in(const BodyPart *part, int s, double from, const double y[LANES], double v[SHAPE_VALUES][LANES],
+/* The five values and their slopes at heights y, in interval s between sections. */
+ALWAYS void shapes_in(const BodyPart *part, int s, const double y[LANES], double v[SHAPE_VALUES][LANES],
                       double d[SHAPE_VALUES][LANES]) {
+    double at = part->section[s].at;
+    for (int k = 0; k < SHAPE_VALUES; k++) {
+        double c0 = part->cubic[s][0][k], c1 = part->cubic[s][1][k], c2 = part->cubic[s][2][k];
+        double c3 = part->cubic[s][3][k];
+        for (int i = 0; i < LANES; i++) {
+            double t = y[i] - at;
+            v[k][i] = c0 + t * (c1 + t * (c2 + t * c3));
+            d[k][i] = c1 + t * (2 * c2 + t * 3 * c3);
+        }
+    }
+}
+
+/* The same for those that reach so high. */
+ALWAYS void shapes_from(const BodyPart *part, int s, const double y[LANES], double v[SHAPE_VALUES][LANES],
+                        double d[SHAPE_VALUES][LANES]) {
     double at = part->section[s].at;
     for (int k = 0; k < SHAPE_VALUES; k++) {
         double c0 = part->cubic[s][0][k], c1 = part->cubic[s][1][k], c2 = part->cubic[s][2][k];
@@ -62,8 +77,8 @@ ALWAYS void shapes_in(const BodyPart *part, int s, double from, const double y[L
         for (int i = 0; i < LANES; i++) {
             double t = y[i] - at, value = c0 + t * (c1 + t * (c2 + t * c3));
             double slope = c1 + t * (2 * c2 + t * 3 * c3), old = v[k][i], old_slope = d[k][i];
-            v[k][i] = y[i] >= from ? value : old;
-            d[k][i] = y[i] >= from ? slope : old_slope;
+            v[k][i] = y[i] >= at ? value : old;
+            d[k][i] = y[i] >= at ? slope : old_slope;
         }
     }
 }
@@ -78,13 +93,14 @@ ALWAYS void shapes_at(const BodyPart *part, const double y[LANES], double v[SHAP
         most = y[i] > most ? y[i] : most;
     }
     int first = body_interval(part, least), last = body_interval(part, most);
-    for (int s = first; s <= last; s++) shapes_in(part, s, s == first ? -INFINITY : part->section[s].at, y, v, d);
+    shapes_in(part, first, y, v, d);
+    for (int s = first + 1; s <= last; s++) shapes_from(part, s, y, v, d);
 }
 
 /* before_plane of body.c for every lane. */
 ALWAYS void before_planes(const BodyPart *part, const Lanes *at, const Lanes *p, double distance[LANES], Lanes *n) {
     Lanes s;
-    double v[SHAPE_VALUES][LANES] = {{0}}, d[SHAPE_VALUES][LANES] = {{0}};
+    double v[SHAPE_VALUES][LANES], d[SHAPE_VALUES][LANES];
     double low = part->low + BODY_POLE, high = part->high - BODY_POLE;
     for (int i = 0; i < LANES; i++) {
         double y = at->y[i] < low ? low : at->y[i];
@@ -141,11 +157,11 @@ typedef struct {
 } Leaning;
 
 ALWAYS void answer(const Asked *asked, int of, double distance, Vec3 normal) {
-    if (distance >= asked->far) return;
-    asked->out[of] = distance;
+    asked->out[of] = distance < asked->far ? distance : asked->far;
     if (asked->normal) asked->normal[of] = normal;
 }
 
+/* All are answered, and those that lean queue up for another answer. */
 ALWAYS void look(const Asked *asked, Queue *queue, Leaning *leaning) {
     Lanes p, n;
     double distance[LANES];
@@ -153,15 +169,13 @@ ALWAYS void look(const Asked *asked, Queue *queue, Leaning *leaning) {
     bring(asked, queue->of, count, &p);
     before_planes(asked->part, &p, &p, distance, &n);
     for (int i = 0; i < count; i++) {
+        int k = leaning->queue.n, leans = (distance[i] < asked->far) & (fabs(n.y[i]) > BODY_LEANING);
         Vec3 normal = vec(n.x[i], n.y[i], n.z[i]);
-        if (distance[i] < asked->far && fabs(normal.y) > BODY_LEANING) {
-            int k = leaning->queue.n++;
-            leaning->queue.of[k] = queue->of[i];
-            leaning->distance[k] = distance[i];
-            leaning->normal[k] = normal;
-        } else {
-            answer(asked, queue->of[i], distance[i], normal);
-        }
+        answer(asked, queue->of[i], distance[i], normal);
+        leaning->queue.of[k] = queue->of[i];
+        leaning->distance[k] = distance[i];
+        leaning->normal[k] = normal;
+        leaning->queue.n += leans;
     }
     advance(queue);
 }
@@ -180,11 +194,9 @@ ALWAYS void look_again(const Asked *asked, Leaning *leaning) {
         foot.z[i] = p.z[i] + leaning->normal[k].z * -distance;
     }
     before_planes(asked->part, &foot, &p, better, &n);
-    for (int i = 0; i < count; i++) {
-        bool counts = (better[i] > 0) == (leaning->distance[i] > 0);
-        answer(asked, leaning->queue.of[i], counts ? better[i] : leaning->distance[i],
-               counts ? vec(n.x[i], n.y[i], n.z[i]) : leaning->normal[i]);
-    }
+    for (int i = 0; i < count; i++)
+        if ((better[i] > 0) == (leaning->distance[i] > 0))
+            answer(asked, leaning->queue.of[i], better[i], vec(n.x[i], n.y[i], n.z[i]));
     for (int i = LANES; i < leaning->queue.n; i++) {
         leaning->distance[i - LANES] = leaning->distance[i];
         leaning->normal[i - LANES] = leaning->normal[i];
