@@ -26,6 +26,7 @@ static void open_cloth(Cloth *c) {
     Pose rest = figure_rest_pose();
     scene_open(s, "tshirt");
     body_frame_pose(&s->posed, &rest);
+    body_frame_normals(&s->posed);
     c->skin = &s->body.skin;
     c->parts = (1u << ROLE_CHEST | 1u << ROLE_LEFT_UPPER_ARM | 1u << ROLE_PELVIS);
     c->position = ARENA_NEW(&s->arena, Vec3, c->skin->nvertices, &s->error);

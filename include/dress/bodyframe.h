@@ -35,6 +35,14 @@ MUST_CHECK bool body_frame_init(BodyFrame *f, const Body *body, double unit, Are
    Allocates nothing. */
 void body_frame_pose(BodyFrame *f, const Pose *pose);
 
+/* Fills f->normal, which only those need who write the body. */
+void body_frame_normals(const BodyFrame *f);
+
+/* The normal at a vertex of a part's skin, where nothing presses on it. */
+static inline Vec3 body_frame_rest_normal(const BodyFrame *f, const BodyPart *part, int vertex) {
+    return mat_apply(f->pose.bone[part->role].r, f->body->skin.normal[vertex]);
+}
+
 /* Signed distance (metres) of a world point from a part, which has given way; *normal, if not NULL, in the world.
    See body_distance for `far`. */
 double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal);

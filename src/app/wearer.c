@@ -41,6 +41,7 @@ bool wearer_put_on(const Wearer *w, const Wardrobe *wardrobe, const DressOptions
 
 Mesh wearer_skin(const Wearer *w) {
     Mesh mesh = w->body.skin;
+    body_frame_normals(&w->posed);
     mesh.position = w->posed.position;
     mesh.normal = w->posed.normal;
     facing_mend(&w->facing, &mesh);

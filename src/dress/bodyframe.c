@@ -148,11 +148,19 @@ bool body_frame_any_inside(const BodyFrame *f, unsigned parts, const Vec3 *p, in
     return false;
 }
 
+void body_frame_normals(const BodyFrame *f) {
+    for (int p = 0; p < f->body->nparts; p++) {
+        const BodyPart *part = &f->body->part[p];
+        for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++)
+            if (f->give[v].by <= 0) f->normal[v] = body_frame_rest_normal(f, part, v);
+    }
+}
+
 void body_frame_pose(BodyFrame *f, const Pose *pose) {
     double start = clock_seconds();
     const Body *b = f->body;
     f->pose = *pose;
-    body_pose(b, pose, f->position, f->normal);
+    body_pose(b, pose, f->position, NULL);
     for (int p = 0; p < b->nparts; p++) {
         const BodyPart *part = &b->part[p];
         Rigid to_world = rigid_mul(pose->bone[part->role], part->frame);

@@ -142,9 +142,9 @@ static void give_way(BodyFrame *f, int p) {
     for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++) {
         const Give *give = &f->give[v];
         if (give->by <= 0) continue;
-        Vec3 skin = f->position[v], n = f->normal[v];
+        Vec3 skin = f->position[v], outwards = body_frame_rest_normal(f, part, v), n = outwards;
         double way = way_in(f, p, skin, give->level, give->by, most_at(f, p, skin), &n);
-        f->position[v] = vec_mad(skin, f->normal[v], -way);
+        f->position[v] = vec_mad(skin, outwards, -way);
         f->normal[v] = n;
     }
 }
