@@ -84,7 +84,8 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
     p->clearance = ARENA_NEW(arena, double, places, e);
     p->near = ARENA_NEW(arena, Near, places, e);
     p->sample = ARENA_NEW(arena, PushSample, places, e);
-    return p->patch_travel && p->mobility && p->travel && p->global && p->point && p->kept_point && p->clearance && p->near && p->sample;
+    return p->mobility && p->patch_travel && p->travel && p->global && p->point && p->kept_point && p->clearance &&
+           p->near && p->sample;
 }
 
 /* A level vertex may move where all cells round it are split to its level; where they are not, it is at rest. */

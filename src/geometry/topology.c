@@ -51,9 +51,11 @@ static int by_edge(const void *a, const void *b) {
     return s->way - t->way;
 }
 
-/* A bucket mostly holds the few edges that meet in a vertex, nearly in order: insertion. */
+/* A bucket mostly holds the few edges that meet in a vertex, nearly in order: insertion. Where thousands do, that would
+   take their square. */
 static void sort_bucket(Side *side, int n) {
-    if (n > 1000) {
+    enum { FEW = 1000 };
+    if (n > FEW) {
         qsort(side, (size_t)n, sizeof *side, by_edge);
         return;
     }
