@@ -16,11 +16,16 @@ typedef struct {
     Presser *presser;
     int npressers;
     Vec3 *hollow;         /* per vertex: how far it was pressed in, not counting single vertices */
+    Vec3 *held;           /* what is left of the hollows of the frame that this one goes on from, */
+    int *held_at, nheld;  /* and at which places */
     bool *is_barred;      /* per place: there the hollow would go through what it is worn over; */
     int *barred, nbarred; /* the places that are */
 } Denter;
 
 MUST_CHECK bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e);
+
+/* Takes the hollows of a frame along that is dt seconds old. goes_on: whether the frame of `body` goes on from it. */
+void dent_carry(Denter *d, const Field *last, const BodyFrame *body, double dt, bool goes_on);
 
 /* Begins anew: no place is barred. */
 void dent_start(Denter *d);

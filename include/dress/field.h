@@ -14,17 +14,29 @@ typedef struct {
     Vec3 *offset;                  /* per lattice place: the last millimetres of single vertices; */
     bool *has_offset;              /* whether it is one of those */
     int *moved, nmoved;            /* that have, or had, one */
-    Vec3 *dent;                    /* per lattice place: how far it is pressed in from outside, in this frame alone, */
+    Vec3 *dent;                    /* per lattice place: how far it is pressed in from outside, */
     bool *has_dent;
     int *dented, ndented;          /* and the places that are */
     Mat3 pelvis;                   /* of the frame that the displacement belongs to */
 } Field;
+
+/* What happens to a vector that is carried along. */
+typedef struct {
+    Mat3 turn;
+    double fade, most, felt; /* share that is left; metres that it may lose, and below which it is dropped */
+} Carry;
 
 MUST_CHECK bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e);
 void field_forget(Field *f);
 
 /* The displacement of one field into another on the same lattice. */
 void field_copy(const Field *from, Field *to);
+
+/* What happens in dt seconds, up to the frame of `body`, to vectors of the frame that a field belongs to. */
+Carry field_carry_to(const Field *f, const BodyFrame *body, double dt);
+
+/* One carried vector; false once it is no longer felt. */
+bool field_carry_one(Vec3 *d, const Carry *c);
 
 /* Takes the displacement of the last frame along: turned with the pelvis, faded with time (dt
    seconds), large ones no faster than cloth sinks. What is still felt keeps its cells split. restart: forget it. */

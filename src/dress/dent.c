@@ -1,8 +1,8 @@
 /* An arm that lies on a skirt presses a hollow into it. In the sweeps it would fight with the legs, for displacements
    that make room for the one take it from the others. So it comes after them, and they win: a vertex that the arm is
    too near to is pressed in as far as there is room in front of the legs, and the cloth round it goes along, the less
-   the farther away it is, so that what comes of it is a hollow and no spike. Hollows belong to one
-   frame: where they are follows from where the arm is, so nothing has to be carried along. */
+   the farther away it is, so that what comes of it is a hollow and no spike. Which way leads past fingers and wrist
+   may change at a hair's breadth; so a hollow is pressed deeper at once, but fills with time. */
 #include "dress/dent.h"
 
 #include <stdlib.h>
@@ -17,9 +17,22 @@ bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e) {
     *d = (Denter){.npressers = 0};
     d->presser = ARENA_NEW(arena, Presser, lattice->nplaces, e);
     d->hollow = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
+    d->held = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
+    d->held_at = ARENA_NEW(arena, int, lattice->nplaces, e);
     d->is_barred = ARENA_NEW(arena, bool, lattice->nplaces, e);
     d->barred = ARENA_NEW(arena, int, lattice->nplaces, e);
-    return d->presser && d->hollow && d->is_barred && d->barred;
+    return d->presser && d->hollow && d->held && d->held_at && d->is_barred && d->barred;
+}
+
+void dent_carry(Denter *d, const Field *last, const BodyFrame *body, double dt, bool goes_on) {
+    Carry carry = field_carry_to(last, body, dt);
+    d->nheld = 0;
+    for (int k = 0; goes_on && k < last->ndented; k++) {
+        Vec3 dent = last->dent[last->dented[k]];
+        if (!field_carry_one(&dent, &carry)) continue;
+        d->held[d->nheld] = dent;
+        d->held_at[d->nheld++] = last->dented[k];
+    }
 }
 
 void dent_start(Denter *d) {
@@ -99,25 +112,38 @@ static void set_dent(Push *p, const Sheet *sheet, int vertex, Vec3 dent) {
     field_set_dent(&p->field, place, dent);
 }
 
+/* Presses a vertex in by `hollow`, as far as there is room. */
+static void press_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, Vec3 hollow) {
+    int place = sheet->place[vertex];
+    double depth = vec_len(hollow);
+    if (depth <= 0) return;
+    Vec3 at = p->point[vertex], n = vec_scale(hollow, 1 / depth);
+    double way = escape_free(&p->escape, body, place, at, p->clearance[vertex], n, depth);
+    if (way <= 0) return;
+    bool capped;
+    Vec3 dent = p->field.dent[place], far = vec_sub(vec_mad(at, n, way), p->global[vertex]);
+    Vec3 more = vec_sub(vec_add(p->global[vertex], field_limit(far, p->field.cap, &capped)), at);
+    set_dent(p, sheet, vertex, field_limit(vec_add(dent, more), DEEPEST * p->field.scale, &capped));
+}
+
+static void press_held(const Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
+    for (int k = 0; k < d->nheld; k++) {
+        int place = d->held_at[k], vertex = sheet->vertex[place];
+        if (vertex >= 0 && !d->is_barred[place]) press_vertex(p, body, sheet, vertex, d->held[k]);
+    }
+}
+
 static void press_in(const Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
     Box box = reach(d);
     for (int v = 0; v < sheet->nvertices; v++) {
-        int place = sheet->place[v];
         Vec3 at = p->point[v];
-        if (d->is_barred[place] || !box_touches(box, (Box){at, at})) continue;
-        Vec3 hollow = hollow_at(d, at);
-        double depth = vec_len(hollow);
-        if (depth <= 0) continue;
-        double way = escape_free(&p->escape, body, place, at, p->clearance[v], vec_scale(hollow, 1 / depth), depth);
-        if (way <= 0) continue;
-        bool capped;
-        Vec3 dent = p->field.dent[place], far = vec_sub(vec_mad(at, hollow, way / depth), p->global[v]);
-        Vec3 more = vec_sub(vec_add(p->global[v], field_limit(far, p->field.cap, &capped)), at);
-        set_dent(p, sheet, v, field_limit(vec_add(dent, more), DEEPEST * p->field.scale, &capped));
+        if (!d->is_barred[sheet->place[v]] && box_touches(box, (Box){at, at}))
+            press_vertex(p, body, sheet, v, hollow_at(d, at));
     }
 }
 
 void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
+    if (!d->is_off) press_held(d, p, body, sheet);
     for (int pass = 0; pass < PASSES && !d->is_off; pass++) {
         find_pressers(d, p, body, sheet);
         if (d->npressers == 0) break;

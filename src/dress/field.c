@@ -64,14 +64,14 @@ void field_copy(const Field *from, Field *to) {
     for (int k = 0; k < from->ndented; k++) field_set_dent(to, from->dented[k], from->dent[from->dented[k]]);
 }
 
-/* What happens to vectors that are carried along. */
-typedef struct {
-    Mat3 turn;
-    double fade, most, felt; /* share that is left; metres that it may lose, and below which it is dropped */
-} Carry;
+Carry field_carry_to(const Field *f, const BodyFrame *body, double dt) {
+    return (Carry){.turn = mat_mul(body->pose.bone[ROLE_PELVIS].r, mat_transpose(f->pelvis)),
+                   .fade = pow(FADE, dt * 30),
+                   .most = SINK * f->scale * dt,
+                   .felt = FELT * f->scale};
+}
 
-/* One carried vector; false once it is no longer felt. */
-static bool carry(Vec3 *d, const Carry *c) {
+bool field_carry_one(Vec3 *d, const Carry *c) {
     if (field_is_zero(*d)) return false;
     double length = vec_len(*d), left = fmax(c->fade * length, length - c->most);
     *d = left > c->felt ? vec_scale(mat_apply(c->turn, *d), left / length) : vec(0, 0, 0);
@@ -82,21 +82,20 @@ static bool carry(Vec3 *d, const Carry *c) {
    would come out at whichever side is near, in one frame here and in the next one there. */
 void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leaves *leaves) {
     const Lattice *l = f->lattice;
-    Mat3 pelvis = body->pose.bone[ROLE_PELVIS].r;
-    Carry c = {mat_mul(pelvis, mat_transpose(f->pelvis)), restart ? 0 : pow(FADE, dt * 30),
-               restart ? INFINITY : SINK * f->scale * dt, FELT * f->scale};
+    Carry c = field_carry_to(f, body, dt);
+    if (restart) field_forget(f);
     for (int level = 0; level <= l->depth; level++)
         for (int v = 0; v < l->level[level].count; v++)
-            if (carry(&f->displacement[f->start[level] + v], &c)) leaves_open(leaves, level, v);
+            if (field_carry_one(&f->displacement[f->start[level] + v], &c)) leaves_open(leaves, level, v);
     int moved = f->nmoved;
     f->nmoved = 0;
     for (int k = 0; k < moved; k++) {
         int place = f->moved[k];
-        if (carry(&f->offset[place], &c)) f->moved[f->nmoved++] = place;
+        if (field_carry_one(&f->offset[place], &c)) f->moved[f->nmoved++] = place;
         else drop_offset(f, place);
     }
     field_drop_dents(f);
-    f->pelvis = pelvis;
+    f->pelvis = body->pose.bone[ROLE_PELVIS].r;
 }
 
 unsigned field_levels(const Field *f) {

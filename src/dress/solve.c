@@ -308,6 +308,7 @@ static void carry(Solver *s, const BodyFrame *body, double dt, Tie tie) {
     if (tie == TIE_ASTRAY && !s->is_astray) field_copy(&s->push.field, &s->before);
     if (tie == TIE_GOES_ON && s->is_astray) field_copy(&s->before, &s->push.field);
     s->is_astray = tie == TIE_ASTRAY;
+    dent_carry(&s->settler.denter, &s->push.field, body, dt, tie == TIE_GOES_ON);
     field_carry(&s->push.field, body, dt, tie != TIE_GOES_ON, &s->leaves);
 }
 
