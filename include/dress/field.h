@@ -49,7 +49,12 @@ unsigned field_levels(const Field *f);
 Vec3 field_at(const Field *f, unsigned levels, int place);
 
 /* d, shortened to `cap`; *capped becomes true if it was longer. */
-Vec3 field_limit(Vec3 d, double cap, bool *capped);
+static inline Vec3 field_limit(Vec3 d, double cap, bool *capped) {
+    double n2 = vec_dot(d, d);
+    if (n2 <= cap * cap) return d;
+    *capped = true;
+    return vec_scale(d, cap / sqrt(n2));
+}
 
 /* Moves a single vertex. */
 void field_set_offset(Field *f, int place, Vec3 offset);

@@ -30,7 +30,9 @@ unsigned near_parts(const Near *near, const BodyFrame *body, unsigned roles);
 bool near_clear(const Near *near, Vec3 p);
 
 /* How far the point may go before a part at `distance` can be nearer than `clearance`. */
-double near_slack(double distance, double clearance);
+#define NEAR_LIPSCHITZ 0.8 /* distances change no faster than the point moves; they are of first order, so no more
+                              than this share of a slack is trusted */
+static inline double near_slack(double distance, double clearance) { return NEAR_LIPSCHITZ * (distance - clearance); }
 
 /* The point is at p now. Parts may have come nearer by as much as it has gone. */
 void near_move(Near *near, Vec3 p);

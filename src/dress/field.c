@@ -120,13 +120,6 @@ Vec3 field_at(const Field *f, unsigned levels, int place) {
     return d;
 }
 
-Vec3 field_limit(Vec3 d, double cap, bool *capped) {
-    double n2 = vec_dot(d, d);
-    if (n2 <= cap * cap) return d;
-    *capped = true;
-    return vec_scale(d, cap / sqrt(n2));
-}
-
 Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place) {
     const Lattice *l = f->lattice;
     int patch, i, j, id[4];

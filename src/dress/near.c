@@ -6,7 +6,6 @@
 #include "geometry/boxtree.h"
 
 enum { BLOCK = 16, LOT = 16 * BLOCK };
-static const double LIPSCHITZ = 0.8;
 
 /* Parts whose boxes come nearer than `far` to any of n points: bits 1 << part. */
 static unsigned parts_round(const BodyFrame *body, const Vec3 *point, int n, double far) {
@@ -95,10 +94,8 @@ unsigned near_parts(const Near *near, const BodyFrame *body, unsigned roles) {
 
 bool near_clear(const Near *near, Vec3 p) { return vec_dist(p, near->seen) < 0.5 * near->least; }
 
-double near_slack(double distance, double clearance) { return LIPSCHITZ * (distance - clearance); }
-
 void near_move(Near *near, Vec3 p) {
-    float gone = (float)(vec_dist(p, near->seen) / LIPSCHITZ);
+    float gone = (float)(vec_dist(p, near->seen) / NEAR_LIPSCHITZ);
     for (unsigned left = near->parts; left; left &= left - 1) near->distance[near_first(left)] -= gone;
     near->least -= gone;
     near->seen = p;

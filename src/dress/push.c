@@ -216,12 +216,19 @@ static bool is_pinched(const Push *p, const PushSample *s) {
     return s->spent > s->budget || (s->spent > BUDGET * p->field.scale && vec_len(s->net) < HEADWAY * s->spent);
 }
 
-/* May a sample have come too near to any part since they were last asked? The most that its patch has gone is held
-   against its slack, then what moves it, then its own way. If so it is placed. */
-static bool needs_asking(Push *p, const Sheet *sheet, PushSample *s, double enough, double weight[][4]) {
-    double slack = near_slack(s->near.least, enough);
-    if (slack > p->patch_travel[s->patch] - s->patch_travelled) return false;
-    double way = travelled(p, s);
+/* The distance that a sample must have from all parts to be left alone. */
+static double enough_for(const Push *p, const PushSample *s) { return (1 - p->slack) * p->clearance[s->vertex]; }
+
+/* Has the patch of a sample gone so little that it cannot have come too near to any part since they were last
+   asked? */
+static inline bool is_at_rest(const Push *p, const PushSample *s) {
+    return near_slack(s->near.least, enough_for(p, s)) > p->patch_travel[s->patch] - s->patch_travelled;
+}
+
+/* May a sample have? What moves it is held against its slack, then its own way. If so it is placed. */
+static bool needs_asking(Push *p, const Sheet *sheet, PushSample *s, double weight[][4]) {
+    double slack = near_slack(s->near.least, enough_for(p, s)), way = travelled(p, s);
+    s->patch_travelled = p->patch_travel[s->patch] - (way - s->travelled);
     if (slack > way - s->travelled) return false;
     weigh(p, s, weight);
     Vec3 x = sample_point(p, sheet, s, weight);
@@ -252,9 +259,9 @@ static double take_back(Push *p, const Sheet *sheet, PushSample *s, double weigh
    of the worst violation that was acted on. */
 static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, PushSample *s, PushResult *result) {
     if (s->budget >= 0 && is_pinched(p, s)) return 0; /* it has had its say */
-    double clearance = p->clearance[s->vertex], enough = (1 - p->slack) * clearance, most = 0;
+    double clearance = p->clearance[s->vertex], enough = enough_for(p, s), most = 0;
     double far = clearance + REACH * p->field.scale, weight[LATTICE_LEVELS][4];
-    if (!needs_asking(p, sheet, s, enough, weight)) return 0;
+    if (!needs_asking(p, sheet, s, weight)) return 0;
     EscapePoint at;
     escape_at(&at, sheet->place[s->vertex], s->near.seen, clearance);
     at.near = s->near.parts;
@@ -285,7 +292,8 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
 static double sweep(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
     double most = 0;
     p->taken = 0;
-    for (int k = 0; k < p->nsamples; k++) most = fmax(most, push_sample(p, body, sheet, &p->sample[k], result));
+    for (int k = 0; k < p->nsamples; k++)
+        if (!is_at_rest(p, &p->sample[k])) most = fmax(most, push_sample(p, body, sheet, &p->sample[k], result));
     return most;
 }
 
