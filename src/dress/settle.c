@@ -6,6 +6,9 @@
 enum { STEPS_MAX = 4 };
 static const double RAISE_MAX = 0.015; /* most extra clearance, and */
 static const double OFFSET_MAX = 0.03; /* longest offset: more would be a spike; metres on 1.70 m */
+static const double JUST_CLEAR = 0.5;  /* of the distance that vertices keep: a facet that crosses a part is moved off it
+                                          so far. It sinks in again by less than a millimetre in a frame, and
+                                          the whole distance would be a jump in one of ten */
 
 bool settle_reserve(Settler *s, const Lattice *lattice, Arena *arena, Error *e) {
     *s = (Settler){.nraised = 0};
@@ -104,32 +107,39 @@ bool settle_raise(Settler *s, Push *p, int vertex, double by, double most) {
     return true;
 }
 
-void settle_hit(Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit) {
+/* Moves the corners of a hit by the least that takes its point, at x, as far off the part as `clearance`. */
+static void move_off(const Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit, int place,
+                     Vec3 x, bool is_worn) {
+    double clearance = (is_worn ? JUST_CLEAR : 1) * PUSH_MARGIN * p->field.scale, norm2 = 0;
     EscapePoint at;
-    double norm2 = 0, clearance = PUSH_MARGIN * p->field.scale;
+    Vec3 n;
+    double distance = body_frame_distance(body, hit->part, x, clearance, &n);
+    if (distance >= clearance) return; /* another hit has moved it */
+    escape_at(&at, place, x, clearance);
+    double way = escape_way(&p->escape, body, &at, hit->part, clearance, distance, &n);
+    if (way > OFFSET_MAX * p->field.scale) return; /* out of reach */
+    for (int c = 0; c < hit->n; c++) norm2 += hit->weight[c] * hit->weight[c];
+    for (int c = 0; c < hit->n; c++) {
+        int v = hit->v[c];
+        double by = way * hit->weight[c] / norm2;
+        bool capped = false;
+        if (!is_worn) by = escape_free(&p->escape, body, sheet->place[v], p->point[v], clearance, n, by);
+        if (by > 0) move(s, p, sheet, v, vec_scale(n, by), is_worn, &capped);
+    }
+}
+
+void settle_hit(Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit) {
     int nearest = 0;
-    bool capped = false;
-    Vec3 x = {0, 0, 0}, n;
+    Vec3 x = {0, 0, 0};
     for (int c = 0; c < hit->n && p->field.lattice->fit->collide & part_bit(body, hit->part); c++)
         dent_back(&s->denter, p, sheet, hit->v[c]);
     for (int c = 0; c < hit->n; c++) {
         if (!is_raised(p, hit->v[c])) return;
         x = vec_mad(x, p->point[hit->v[c]], hit->weight[c]);
-        norm2 += hit->weight[c] * hit->weight[c];
         if (hit->weight[c] > hit->weight[nearest]) nearest = c;
     }
-    double distance = body_frame_distance(body, hit->part, x, clearance, &n);
-    if (distance >= clearance) return; /* another hit has moved it */
-    escape_at(&at, sheet->place[hit->v[nearest]], x, clearance);
-    double way = escape_way(&p->escape, body, &at, hit->part, clearance, distance, &n);
-    if (way > OFFSET_MAX * p->field.scale) return; /* out of reach */
-    bool is_worn = is_worn_over(p, body, at.place, hit->part);
-    for (int c = 0; c < hit->n; c++) {
-        int v = hit->v[c];
-        double by = way * hit->weight[c] / norm2;
-        if (!is_worn) by = escape_free(&p->escape, body, sheet->place[v], p->point[v], clearance, n, by);
-        if (by > 0) move(s, p, sheet, v, vec_scale(n, by), is_worn, &capped);
-    }
+    int place = sheet->place[hit->v[nearest]];
+    move_off(s, p, body, sheet, hit, place, x, is_worn_over(p, body, place, hit->part));
 }
 
 void settle_mark(Settler *s, const Push *p, const Sheet *sheet) {
