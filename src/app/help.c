@@ -32,7 +32,7 @@ static void describe(const Option *o, char *text, size_t n) {
     } else if (o->kind == KIND_UNIT) {
         used = (size_t)snprintf(extra, sizeof extra, "m, dm, cm, mm, in, ft or metres");
     } else if (o->kind == KIND_INT || o->kind == KIND_REAL) {
-        used = (size_t)snprintf(extra, sizeof extra, "%g..%g", o->low, o->high);
+        used = (size_t)snprintf(extra, sizeof extra, "%.10g..%.10g", o->low, o->high);
         if (o->step > 1) used += (size_t)snprintf(extra + used, sizeof extra - used, ", a multiple of %d", o->step);
     }
     if (o->fallback) snprintf(extra + used, sizeof extra - used, "%sdefault: %s", used ? "; " : "", o->fallback);

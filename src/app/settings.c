@@ -156,7 +156,7 @@ const Option settings_table[] = {
     {"follow", 0, KIND_FLAG, FIELD(draw.follow), NULL, "Picture", COMMAND_DRAW,
      "the camera goes along with the figure"},
     {"show", 0, KIND_SET, FIELD(draw.show), "LIST", "Picture", COMMAND_DRAW,
-     "also show borders of patches, their control points, both for the cells that the solver made of patches",
+     "also the borders of patches, their control points, or both for the cells that the solver split them into",
      .fallback = "nothing more", .choices = shows},
     {"cell", 0, KIND_LIST, FIELD(draw.cells), "WORDS=TITLE", "Picture", COMMAND_DRAW,
      "one of several pictures of each frame: methods, rules of splitting and what to show, separated by commas, "
@@ -303,7 +303,7 @@ static bool put_int(int *field, const Option *option, const char *text, Error *e
 static bool put_real(double *field, const Option *option, const char *text, Error *e) {
     double x = 0;
     char what[80];
-    snprintf(what, sizeof what, "a number from %g to %g", option->low, option->high);
+    snprintf(what, sizeof what, "a number from %.10g to %.10g", option->low, option->high);
     if (!is_number(text, &x) || !(x >= option->low && x <= option->high)) return expected(option, what, text, e);
     *field = x;
     return true;
