@@ -241,13 +241,12 @@ static bool needs_asking(Push *p, const Sheet *sheet, PushSample *s, double weig
 }
 
 /* Others may have carried a sample farther out than it asked for itself. Then it takes its own pushes back, as far as
-   it keeps its clearance. Returns how far that is. */
+   it keeps its clearance; they stay spent. Returns how far that is. */
 static double take_back(Push *p, const Sheet *sheet, PushSample *s, double weight[][4], double clearance,
                         PushResult *result) {
     double pushed = vec_len(s->net), way = fmin(s->near.least - clearance, pushed);
     if (pushed <= 0 || way <= 0) return 0;
     Vec3 n = vec_scale(s->net, -1 / pushed);
-    s->spent -= way;
     s->net = vec_mad(s->net, n, way);
     project(p, s, weight, n, way, result);
     near_move(&s->near, sample_point(p, sheet, s, weight));
