@@ -106,6 +106,9 @@ static void shares(void) {
     OK(true, "both sides of every contact agree");
     OK(!yield_concerns(ROLE_SPINE, ROLE_CHEST) && !yield_concerns(ROLE_LEFT_SHIN, ROLE_LEFT_FOOT),
        "the trunk is one, so is an ankle");
+    OK(yield_concerns(ROLE_HEAD, ROLE_CHEST) && !yield_concerns(ROLE_HEAD, ROLE_NECK) &&
+           !yield_concerns(ROLE_PELVIS, ROLE_CHEST),
+       "of the trunk only a bowed head and the chest do");
     OK(yield_concerns(ROLE_LEFT_THIGH, ROLE_LEFT_SHIN) && yield_concerns(ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH),
        "calf and thigh press on each other, so do both thighs");
 }

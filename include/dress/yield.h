@@ -28,7 +28,7 @@ enum { CONTACTS_MAX = 12 };
 typedef struct { int n; Contact contact[CONTACTS_MAX]; } Contacts;
 
 /* May the two roles press on each other at all? Neighbours in a limb and the trunk are one body,
-   but for the bends of elbow and knee. */
+   but for the bends of elbow and knee, and a head that is bowed to the chest. */
 bool yield_concerns(Role a, Role b);
 
 /* The two sides of a contact of roles a and b on a body of `scale` x 1.70 m. */

@@ -35,7 +35,8 @@ static bool is_upper(Role r) {
 bool yield_concerns(Role a, Role b) {
     if (a > b) return yield_concerns(b, a);
     if (role_limb(a) != role_limb(b)) return true;
-    return role_limb(a) > 0 && a != b && (b - a > 1 || is_upper(a));
+    if (role_limb(a) == 0) return a == ROLE_CHEST && b == ROLE_HEAD; /* a bowed head comes to the chest */
+    return a != b && (b - a > 1 || is_upper(a));
 }
 
 /* Captured legs that swing past each other pass through each other by more than flesh would give. */
