@@ -5,18 +5,21 @@
 
 #include "dress/tessellate.h"
 
+/* Vectors of single places; all others have none. */
+typedef struct {
+    Vec3 *at;                      /* per lattice place, metres */
+    bool *is_listed;               /* per lattice place */
+    int *place, n;                 /* those that have, or had, one */
+} FieldSpots;
+
 typedef struct {
     const Lattice *lattice;
     double scale;                  /* lengths inside the method, relative to 1.70 m */
     double cap;                    /* no vertex is moved farther, metres */
     int start[LATTICE_LEVELS + 1]; /* level l's vertices are start[l]..start[l + 1) */
     Vec3 *displacement;            /* per level vertex */
-    Vec3 *offset;                  /* per lattice place: the last millimetres of single vertices; */
-    bool *has_offset;              /* whether it is one of those */
-    int *moved, nmoved;            /* that have, or had, one */
-    Vec3 *dent;                    /* per lattice place: how far it is pressed in from outside, */
-    bool *has_dent;
-    int *dented, ndented;          /* and the places that are */
+    FieldSpots offset;             /* the last millimetres of single vertices */
+    FieldSpots dent;               /* how far they are pressed in from outside */
     Mat3 pelvis;                   /* of the frame that the displacement belongs to */
 } Field;
 
@@ -56,10 +59,9 @@ static inline Vec3 field_limit(Vec3 d, double cap, bool *capped) {
     return vec_scale(d, cap / sqrt(n2));
 }
 
-/* Moves a single vertex. */
-void field_set_offset(Field *f, int place, Vec3 offset);
-void field_set_dent(Field *f, int place, Vec3 dent);
-void field_drop_dents(Field *f);
+/* Gives a place a vector; takes all of them away. */
+void field_set_spot(FieldSpots *s, int place, Vec3 d);
+void field_drop_spots(FieldSpots *s);
 
 static inline bool field_is_zero(Vec3 d) { return d.x == 0 && d.y == 0 && d.z == 0; }
 

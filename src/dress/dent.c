@@ -27,11 +27,12 @@ bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e) {
 void dent_carry(Denter *d, const Field *last, const BodyFrame *body, double dt, bool goes_on) {
     Carry carry = field_carry_to(last, body, dt);
     d->nheld = 0;
-    for (int k = 0; goes_on && k < last->ndented; k++) {
-        Vec3 dent = last->dent[last->dented[k]];
+    for (int k = 0; goes_on && k < last->dent.n; k++) {
+        int place = last->dent.place[k];
+        Vec3 dent = last->dent.at[place];
         if (!field_carry_one(&dent, &carry)) continue;
         d->held[d->nheld] = dent;
-        d->held_at[d->nheld++] = last->dented[k];
+        d->held_at[d->nheld++] = place;
     }
 }
 
@@ -108,8 +109,8 @@ static Box reach(const Denter *d) {
 
 static void set_dent(Push *p, const Sheet *sheet, int vertex, Vec3 dent) {
     int place = sheet->place[vertex];
-    p->point[vertex] = vec_add(p->point[vertex], vec_sub(dent, p->field.dent[place]));
-    field_set_dent(&p->field, place, dent);
+    p->point[vertex] = vec_add(p->point[vertex], vec_sub(dent, p->field.dent.at[place]));
+    field_set_spot(&p->field.dent, place, dent);
 }
 
 /* Presses a vertex in by `hollow`, as far as there is room. */
@@ -121,7 +122,7 @@ static void press_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int
     double way = escape_free(&p->escape, body, place, at, p->clearance[vertex], n, depth);
     if (way <= 0) return;
     bool capped;
-    Vec3 dent = p->field.dent[place], far = vec_sub(vec_mad(at, n, way), p->global[vertex]);
+    Vec3 dent = p->field.dent.at[place], far = vec_sub(vec_mad(at, n, way), p->global[vertex]);
     Vec3 more = vec_sub(vec_add(p->global[vertex], field_limit(far, p->field.cap, &capped)), at);
     set_dent(p, sheet, vertex, field_limit(vec_add(dent, more), DEEPEST * p->field.scale, &capped));
 }
@@ -149,17 +150,17 @@ void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
         if (d->npressers == 0) break;
         press_in(d, p, body, sheet);
     }
-    for (int v = 0; v < sheet->nvertices; v++) d->hollow[v] = p->field.dent[sheet->place[v]];
+    for (int v = 0; v < sheet->nvertices; v++) d->hollow[v] = p->field.dent.at[sheet->place[v]];
 }
 
 void dent_add(const Denter *d, Push *p, const Sheet *sheet, int vertex, Vec3 by, double most, bool *capped) {
-    Vec3 more = vec_sub(vec_add(p->field.dent[sheet->place[vertex]], by), d->hollow[vertex]);
+    Vec3 more = vec_sub(vec_add(p->field.dent.at[sheet->place[vertex]], by), d->hollow[vertex]);
     set_dent(p, sheet, vertex, vec_add(d->hollow[vertex], field_limit(more, most, capped)));
 }
 
 void dent_back(Denter *d, Push *p, const Sheet *sheet, int vertex) {
     int place = sheet->place[vertex];
-    if (d->is_barred[place] || field_is_zero(p->field.dent[place])) return;
+    if (d->is_barred[place] || field_is_zero(p->field.dent.at[place])) return;
     set_dent(p, sheet, vertex, vec(0, 0, 0));
     d->barred[d->nbarred++] = place;
     d->is_barred[place] = true;

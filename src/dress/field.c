@@ -9,59 +9,55 @@ static const double SINK = 0.12;                  /* but no faster than that, me
 static const double FELT = 0.0002;                /* metres on 1.70 m: a carried displacement below this is dropped */
 static const double CAP_LOOSE = 7, CAP_TIGHT = 9; /* parts of the height */
 
+static bool reserve_spots(FieldSpots *s, int nplaces, Arena *arena, Error *e) {
+    s->at = ARENA_NEW(arena, Vec3, nplaces, e);
+    s->is_listed = ARENA_NEW(arena, bool, nplaces, e);
+    s->place = ARENA_NEW(arena, int, nplaces, e);
+    return s->at && s->is_listed && s->place;
+}
+
+void field_set_spot(FieldSpots *s, int place, Vec3 d) {
+    if (!s->is_listed[place]) s->place[s->n++] = place;
+    s->is_listed[place] = true;
+    s->at[place] = d;
+}
+
+static void drop_spot(FieldSpots *s, int place) {
+    s->is_listed[place] = false;
+    s->at[place] = vec(0, 0, 0);
+}
+
+void field_drop_spots(FieldSpots *s) {
+    for (int k = 0; k < s->n; k++) drop_spot(s, s->place[k]);
+    s->n = 0;
+}
+
+static void copy_spots(const FieldSpots *from, FieldSpots *to) {
+    for (int k = 0; k < from->n; k++) field_set_spot(to, from->place[k], from->at[from->place[k]]);
+}
+
 bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e) {
     *f = (Field){.lattice = lattice, .scale = figure_scale(lattice->fit->height), .pelvis = mat_identity()};
     f->cap = lattice->fit->height / (lattice->fit->garment->loose ? CAP_LOOSE : CAP_TIGHT);
     for (int l = 0; l < LATTICE_LEVELS; l++)
         f->start[l + 1] = f->start[l] + (l <= lattice->depth ? lattice->level[l].count : 0);
     f->displacement = ARENA_NEW(arena, Vec3, f->start[LATTICE_LEVELS], e);
-    f->offset = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
-    f->has_offset = ARENA_NEW(arena, bool, lattice->nplaces, e);
-    f->moved = ARENA_NEW(arena, int, lattice->nplaces, e);
-    f->dent = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
-    f->has_dent = ARENA_NEW(arena, bool, lattice->nplaces, e);
-    f->dented = ARENA_NEW(arena, int, lattice->nplaces, e);
-    return f->displacement && f->offset && f->has_offset && f->moved && f->dent && f->has_dent && f->dented;
-}
-
-void field_set_offset(Field *f, int place, Vec3 offset) {
-    if (!f->has_offset[place]) f->moved[f->nmoved++] = place;
-    f->has_offset[place] = true;
-    f->offset[place] = offset;
-}
-
-void field_set_dent(Field *f, int place, Vec3 dent) {
-    if (!f->has_dent[place]) f->dented[f->ndented++] = place;
-    f->has_dent[place] = true;
-    f->dent[place] = dent;
-}
-
-void field_drop_dents(Field *f) {
-    for (int k = 0; k < f->ndented; k++) {
-        f->dent[f->dented[k]] = vec(0, 0, 0);
-        f->has_dent[f->dented[k]] = false;
-    }
-    f->ndented = 0;
-}
-
-static void drop_offset(Field *f, int place) {
-    f->has_offset[place] = false;
-    f->offset[place] = vec(0, 0, 0);
+    return f->displacement && reserve_spots(&f->offset, lattice->nplaces, arena, e) &&
+           reserve_spots(&f->dent, lattice->nplaces, arena, e);
 }
 
 void field_forget(Field *f) {
     memset(f->displacement, 0, (size_t)f->start[LATTICE_LEVELS] * sizeof *f->displacement);
-    for (int k = 0; k < f->nmoved; k++) drop_offset(f, f->moved[k]);
-    f->nmoved = 0;
-    field_drop_dents(f);
+    field_drop_spots(&f->offset);
+    field_drop_spots(&f->dent);
 }
 
 void field_copy(const Field *from, Field *to) {
     field_forget(to);
     to->pelvis = from->pelvis;
     memcpy(to->displacement, from->displacement, (size_t)from->start[LATTICE_LEVELS] * sizeof *to->displacement);
-    for (int k = 0; k < from->nmoved; k++) field_set_offset(to, from->moved[k], from->offset[from->moved[k]]);
-    for (int k = 0; k < from->ndented; k++) field_set_dent(to, from->dented[k], from->dent[from->dented[k]]);
+    copy_spots(&from->offset, &to->offset);
+    copy_spots(&from->dent, &to->dent);
 }
 
 Carry field_carry_to(const Field *f, const BodyFrame *body, double dt) {
@@ -78,6 +74,16 @@ bool field_carry_one(Vec3 *d, const Carry *c) {
     return left > c->felt;
 }
 
+static void carry_spots(FieldSpots *s, const Carry *c) {
+    int before = s->n;
+    s->n = 0;
+    for (int k = 0; k < before; k++) {
+        int place = s->place[k];
+        if (field_carry_one(&s->at[place], c)) s->place[s->n++] = place;
+        else drop_spot(s, place);
+    }
+}
+
 /* Fading lets the cloth sink into what holds it, by as much as is pushed out again. Sunk by centimetres, it
    would come out at whichever side is near, in one frame here and in the next one there. */
 void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leaves *leaves) {
@@ -87,14 +93,8 @@ void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leave
     for (int level = 0; level <= l->depth; level++)
         for (int v = 0; v < l->level[level].count; v++)
             if (field_carry_one(&f->displacement[f->start[level] + v], &c)) leaves_open(leaves, level, v);
-    int moved = f->nmoved;
-    f->nmoved = 0;
-    for (int k = 0; k < moved; k++) {
-        int place = f->moved[k];
-        if (field_carry_one(&f->offset[place], &c)) f->moved[f->nmoved++] = place;
-        else drop_offset(f, place);
-    }
-    field_drop_dents(f);
+    carry_spots(&f->offset, &c);
+    field_drop_spots(&f->dent);
     f->pelvis = body->pose.bone[ROLE_PELVIS].r;
 }
 

@@ -111,7 +111,7 @@ static void find_mobility(Push *p, const Leaves *leaves) {
 static Vec3 displaced(const Push *p, const Sheet *sheet, int vertex, Vec3 d) {
     bool capped = false;
     int place = sheet->place[vertex];
-    Vec3 own = vec_add(p->field.offset[place], p->field.dent[place]);
+    Vec3 own = vec_add(p->field.offset.at[place], p->field.dent.at[place]);
     return vec_add(p->global[vertex], field_limit(vec_add(d, own), p->field.cap, &capped));
 }
 
@@ -333,7 +333,7 @@ void push_rest(Push *p, const Sheet *sheet) {
 
 void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
     double moved = INFINITY;
-    field_drop_dents(&p->field);
+    field_drop_spots(&p->field.dent);
     for (int round = 0; round < ROUNDS_MAX && moved >= REACH * p->field.scale; round++) {
         find_samples(p, body, sheet);
         moved = sweep_all(p, body, sheet, result); /* when it is less nobody can have come near who was not */

@@ -6,8 +6,8 @@
 enum { STEPS_MAX = 4 };
 static const double RAISE_MAX = 0.015; /* most extra clearance, and */
 static const double OFFSET_MAX = 0.03; /* longest offset: more would be a spike; metres on 1.70 m */
-static const double JUST_CLEAR = 0.5;  /* of the distance that vertices keep: a facet that crosses a part is moved off it
-                                          so far. It sinks in again by less than a millimetre in a frame, and
+static const double JUST_CLEAR = 0.5;  /* of the distance that vertices keep: so far a facet that crosses a part is
+                                          moved off it. It sinks in again by less than a millimetre in a frame, and
                                           the whole distance would be a jump in one of ten */
 
 bool settle_reserve(Settler *s, const Lattice *lattice, Arena *arena, Error *e) {
@@ -41,10 +41,10 @@ static void move(const Settler *s, Push *p, const Sheet *sheet, int vertex, Vec3
         return;
     }
     int place = sheet->place[vertex];
-    Vec3 offset = p->field.offset[place];
+    Vec3 offset = p->field.offset.at[place];
     Vec3 longer = field_limit(vec_add(offset, by), most, capped);
     p->point[vertex] = vec_add(p->point[vertex], vec_sub(longer, offset));
-    field_set_offset(&p->field, place, longer);
+    field_set_spot(&p->field.offset, place, longer);
 }
 
 /* The step that takes a vertex at `at` out of a part; false where there is none to take. From a part that comes from
@@ -78,9 +78,10 @@ static void settle_vertex(const Settler *s, Push *p, const BodyFrame *body, cons
     bool moved = true;
     for (int step = 0; step < STEPS_MAX && moved; step++) {
         moved = false;
-        for (int part = 0; at.near >> part; part++) {
+        for (unsigned left = at.near; left; left &= left - 1) {
+            int part = near_first(left);
             Vec3 by;
-            if (!(at.near >> part & 1) || !step_out(p, body, &at, part, &by)) continue;
+            if (!step_out(p, body, &at, part, &by)) continue;
             move(s, p, sheet, vertex, by, is_worn_over(p, body, at.place, part), capped);
             body_point_move(&at.point, p->point[vertex]);
             moved = true;
@@ -108,8 +109,8 @@ bool settle_raise(Settler *s, Push *p, int vertex, double by, double most) {
 }
 
 /* Moves the corners of a hit by the least that takes its point, at x, as far off the part as `clearance`. */
-static void move_off(const Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit, int place,
-                     Vec3 x, bool is_worn) {
+static void move_off(const Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit,
+                     int place, Vec3 x, bool is_worn) {
     double clearance = (is_worn ? JUST_CLEAR : 1) * PUSH_MARGIN * p->field.scale, norm2 = 0;
     EscapePoint at;
     Vec3 n;
@@ -145,16 +146,16 @@ void settle_hit(Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, 
 void settle_mark(Settler *s, const Push *p, const Sheet *sheet) {
     s->nmarked = s->nraised;
     for (int k = 0; k < s->nmarked && k < MARKED_MOST; k++) {
-        s->was_offset[k] = p->field.offset[sheet->place[s->raised[k]]];
-        s->was_dent[k] = p->field.dent[sheet->place[s->raised[k]]];
+        s->was_offset[k] = p->field.offset.at[sheet->place[s->raised[k]]];
+        s->was_dent[k] = p->field.dent.at[sheet->place[s->raised[k]]];
         s->was_point[k] = p->point[s->raised[k]];
     }
 }
 
 bool settle_back(const Settler *s, Push *p, const Sheet *sheet) {
     for (int k = 0; k < s->nmarked && s->nmarked <= MARKED_MOST; k++) {
-        field_set_offset(&p->field, sheet->place[s->raised[k]], s->was_offset[k]);
-        field_set_dent(&p->field, sheet->place[s->raised[k]], s->was_dent[k]);
+        field_set_spot(&p->field.offset, sheet->place[s->raised[k]], s->was_offset[k]);
+        field_set_spot(&p->field.dent, sheet->place[s->raised[k]], s->was_dent[k]);
         p->point[s->raised[k]] = s->was_point[k];
     }
     return s->nmarked <= MARKED_MOST;
