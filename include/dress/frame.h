@@ -57,7 +57,7 @@ MUST_CHECK bool dresser_open(const Garment *garment, const Figure *figure, const
 
 /* Dresses one frame. dt: seconds since the one that it goes on from. *mesh is filled with arrays of the
    dresser, valid until the next call: in output units (body->unit), snapped, with normals, u, w and a group for
-   each panel. Allocates nothing. */
+   each panel; NULL: the statistics are enough. Allocates nothing. */
 void dresser_frame(Dresser *d, const BodyFrame *body, double dt, Tie tie, Mesh *mesh, FrameStats *stats);
 
 /* A leaf of a root patch's quadtree after the last frame, with its control points. World, metres. */

@@ -52,7 +52,7 @@ static void put(Run *r, Pen *pen, const char *name, int frame, const Mesh *mesh,
                 int nrows) {
     PressOrder order = {r->settings, r->work->folder, name, frame, r->work->unit, bytes, row, nrows, &r->tally};
     Error e = {0};
-    if (r->settings->formats == FORMAT_NONE || !press_put(r->work->press, pen, &order, mesh, &e)) return;
+    if (!press_put(r->work->press, pen, &order, mesh, &e)) return;
 }
 
 /* What is done at the same time. row: one for each garment; NULL: nothing is to be written. next: NULL
@@ -68,14 +68,15 @@ static void pose_body(Stance *s) {
 static void dress_garment(const Fitting *f, int g, Pen *pen) {
     Run *r = f->run;
     const TakeFrame *frame = &f->now->frame;
+    bool writes = f->row && r->settings->formats != FORMAT_NONE;
     Mesh mesh;
     FrameStats stats;
     double since = clock_seconds();
-    dresser_frame(r->lane->dresser[g], &f->now->wearer.posed, frame->dt, frame->tie, &mesh, &stats);
+    dresser_frame(r->lane->dresser[g], &f->now->wearer.posed, frame->dt, frame->tie, writes ? &mesh : NULL, &stats);
     if (!f->row) return;
     f->row[g].stats = stats;
     r->result->seconds[g] += clock_lap(&since);
-    put(r, pen, f->row[g].garment, frame->number, &mesh, &r->result->bytes[g], &f->row[g], 1);
+    if (writes) put(r, pen, f->row[g].garment, frame->number, &mesh, &r->result->bytes[g], &f->row[g], 1);
 }
 
 /* All rows share the time for the body. */
