@@ -41,6 +41,9 @@ bool yield_hinges(Role upper, Role lower);
    and the radius of the limb at the joint, metres. */
 void yield_fold(Vec3 centre, Vec3 up, Vec3 down, double radius, Contact *upper, Contact *lower);
 
+/* May a part give way at all where its normal is about this one and the other's is `away`? A cheap question. */
+bool yield_may(const Contact *c, Vec3 normal, Vec3 away);
+
 /* How far a part that is `distance` from p, with unit normal *normal there, gives way to one that is `other`
    away with unit normal `away`: metres, >= 0, to be added to the distance. *normal becomes that of the
    sum. `scale` as above. */

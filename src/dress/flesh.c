@@ -52,12 +52,13 @@ static bool press(BodyFrame *f, int part, const Contact *contact) {
         near.n = 0;
         for (int i = 0; i < all.n; i++) {
             if (distance[i] >= f->room) continue;
+            any = true;
+            if (!yield_may(contact, body_frame_rest_normal(f, &f->body->part[part], all.vertex[i]), away[i])) continue;
             distance[near.n] = distance[i];
             away[near.n] = away[i];
             add(&near, all.vertex[i], all.skin[i]);
         }
         if (near.n == 0) continue;
-        any = true;
         body_frame_unpressed_many(f, part, near.skin, near.n, INFINITY, level, normal);
         for (int i = 0; i < near.n; i++) {
             Give *give = &f->give[near.vertex[i]];

@@ -114,6 +114,11 @@ static double yield_by_share(const Contact *c, double scale, double distance, do
     return share * lacking;
 }
 
+bool yield_may(const Contact *c, Vec3 normal, Vec3 away) {
+    static const double SURE = 0.2; /* cosine: they do not face each other, however roughly the normal is known */
+    return !c->folds || c->fold.bottom > 0 || vec_dot(normal, away) < SURE;
+}
+
 double yield_by(const Contact *c, double scale, Vec3 p, double distance, double other, Vec3 away, Vec3 *normal) {
     Vec3 shared = *normal, folded = *normal;
     double by = yield_by_share(c, scale, distance, other, away, &shared);
