@@ -116,8 +116,10 @@ static void plain_tests_find_the_same(Scene *s) {
     int pairs = 0, found = 0, extra = 0;
     for (int p = 0; p < s->body.nparts; p++)
         for (int q = 0; q < s->body.nparts; q++) {
-            int n = crossing_find(&s->posed.edges[p], &s->posed.triangles[q], one, MOST, &culled);
-            int m = crossing_find_plainly(&s->posed.edges[p], &s->posed.triangles[q], other, MOST, &plain);
+            const CrossingSet *edges = body_frame_edges(&s->posed, p, box_all());
+            const CrossingSet *triangles = body_frame_triangles(&s->posed, q, box_all());
+            int n = crossing_find(edges, triangles, one, MOST, &culled);
+            int m = crossing_find_plainly(edges, triangles, other, MOST, &plain);
             pairs += n;
             extra += m - n;
             for (int k = 0; k < n && p != q; k++)

@@ -5,9 +5,19 @@
 #include "dress/yield.h"
 #include "geometry/crossing.h"
 
+#include <pthread.h>
+
 /* How far a vertex of the skin has to give way, and its distance from the part where nothing presses: next to
    nothing. Private. */
 typedef struct { double by, level; } Give;
+
+/* Boxes over the edges and triangles of every part's skin. Many parts are far from any garment: theirs are made when
+   somebody asks, and garments may be dressed by several threads. */
+typedef struct {
+    pthread_mutex_t making;
+    unsigned made;                 /* bits 1 << part */
+    CrossingSet edges[BODY_PARTS_MAX], triangles[BODY_PARTS_MAX];
+} BodyBoxes;
 
 typedef struct {
     const Body *body;
@@ -25,14 +35,14 @@ typedef struct {
     Contacts contacts[BODY_PARTS_MAX]; /* what each part gives way to in this pose */
     double room;                   /* that parts leave between them, metres */
     Give *give;                    /* per vertex of the skin */
-    CrossingSet edges[BODY_PARTS_MAX], triangles[BODY_PARTS_MAX];
+    Box skin[BODY_PARTS_MAX];      /* of its skin, where it has given way */
+    BodyBoxes *boxes;              /* private */
     double seconds;                /* that posing took */
 } BodyFrame;
 
 MUST_CHECK bool body_frame_init(BodyFrame *f, const Body *body, double unit, Arena *arena, Error *e);
 
-/* Poses the body, lets its parts give way to each other, and boxes its edges and triangles.
-   Allocates nothing. */
+/* Poses the body and lets its parts give way to each other. Allocates nothing. */
 void body_frame_pose(BodyFrame *f, const Pose *pose);
 
 /* Fills f->normal, which only those need who write the body. */
@@ -74,6 +84,10 @@ void body_frame_unpressed_many(const BodyFrame *f, int part, const Vec3 *p, int 
 /* Is a world point, or any of n, inside any of `parts` (bits 1 << role)? */
 bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p);
 bool body_frame_any_inside(const BodyFrame *f, unsigned parts, const Vec3 *p, int n);
+
+/* The boxes over a part's skin, if its own comes near to `cloth`; both in output units. Else NULL. */
+const CrossingSet *body_frame_edges(const BodyFrame *f, int part, Box cloth);
+const CrossingSet *body_frame_triangles(const BodyFrame *f, int part, Box cloth);
 
 /* Is p farther than `far` from a part for certain? A cheap question before the exact one. */
 static inline bool body_frame_far(const BodyFrame *f, int part, Vec3 p, double far) {

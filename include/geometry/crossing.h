@@ -36,6 +36,9 @@ MUST_CHECK bool crossing_reserve(CrossingSet *set, int capacity, Arena *arena, E
 void crossing_build_edges(CrossingSet *set, const Vec3 *position, const Edge *edge, int n);
 void crossing_build_triangles(CrossingSet *set, const Vec3 *position, const Triangle *triangle, int n);
 
+/* The box round everything, to the precision of floats; box_empty() without items. */
+Box crossing_box(const CrossingSet *set);
+
 /* Finds every pair that intersects, in a fixed order. Writes the first `capacity` to out,
    counts all; adds to *count. Returns how many were written. */
 int crossing_find(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,

@@ -120,6 +120,7 @@ static inline Mat3 mat_nlerp(Mat3 a, Mat3 b, double t) {
 }
 
 static inline Box box_empty(void) { return (Box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}; }
+static inline Box box_all(void) { return (Box){box_empty().high, box_empty().low}; }
 static inline void box_add(Box *b, Vec3 p) {
     Vec3 low = b->low, high = b->high;
     b->low = vec(p.x < low.x ? p.x : low.x, p.y < low.y ? p.y : low.y, p.z < low.z ? p.z : low.z);

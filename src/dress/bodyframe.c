@@ -1,5 +1,5 @@
 /* Posing the body: its parts to the world, each lets the others press on it (dress/flesh), and what is then
-   its skin goes to the precision of the text and is boxed part by part. */
+   its skin goes to the precision of the text. */
 #include "dress/bodyframe.h"
 
 #include "base/clock.h"
@@ -15,9 +15,12 @@ bool body_frame_init(BodyFrame *f, const Body *body, double unit, Arena *arena, 
     f->give = ARENA_NEW(arena, Give, body->skin.nvertices, e);
     f->block = ARENA_NEW(arena, Box, body->skin.nvertices / BODY_BLOCK + body->nparts, e);
     if (!f->position || !f->normal || !f->give || !f->block) return false;
+    f->boxes = ARENA_NEW(arena, BodyBoxes, 1, e);
+    if (!f->boxes) return false;
+    pthread_mutex_init(&f->boxes->making, NULL);
     for (int p = 0; p < body->nparts; p++)
-        if (!crossing_reserve(&f->edges[p], body->part[p].nedges, arena, e) ||
-            !crossing_reserve(&f->triangles[p], body->part[p].ntriangles, arena, e))
+        if (!crossing_reserve(&f->boxes->edges[p], body->part[p].nedges, arena, e) ||
+            !crossing_reserve(&f->boxes->triangles[p], body->part[p].ntriangles, arena, e))
             return false;
     return true;
 }
@@ -37,7 +40,7 @@ static void find_box(BodyFrame *f, int part) {
         box_add(&b, block->high);
     }
     Vec3 room = vec_scale(vec(1, 1, 1), BULGE * vec_dist(b.low, b.high));
-    f->box[part] = (Box){vec_sub(b.low, room), vec_add(b.high, room)};
+    f->box[part] = f->skin[part] = (Box){vec_sub(b.low, room), vec_add(b.high, room)};
 }
 
 static double distance_in_box(const BodyFrame *f, int part, BodyPoint *p, double far, Vec3 *normal) {
@@ -170,11 +173,33 @@ void body_frame_pose(BodyFrame *f, const Pose *pose) {
     }
     flesh_press(f);
     mesh_snap_points(f->vectors, f->position, f->unit, b->skin.nvertices, f->position);
-    for (int p = 0; p < b->nparts; p++) {
-        const BodyPart *part = &b->part[p];
-        crossing_build_edges(&f->edges[p], f->position, b->skin.edge + part->first_edge, part->nedges);
-        crossing_build_triangles(&f->triangles[p], f->position, b->skin.triangle + part->first_triangle,
-                                 part->ntriangles);
-    }
+    f->boxes->made = 0;
     f->seconds = clock_seconds() - start;
+}
+
+/* The boxes of a part, made where they are not yet; NULL where nobody needs them. */
+static const BodyBoxes *boxes_near(const BodyFrame *f, int part, Box cloth) {
+    const BodyPart *p = &f->body->part[part];
+    const Mesh *skin = &f->body->skin;
+    BodyBoxes *b = f->boxes;
+    Box own = {vec_scale(f->skin[part].low, f->unit), vec_scale(f->skin[part].high, f->unit)};
+    if (!box_touches(own, cloth)) return NULL;
+    pthread_mutex_lock(&b->making);
+    if (!(b->made >> part & 1)) {
+        crossing_build_edges(&b->edges[part], f->position, skin->edge + p->first_edge, p->nedges);
+        crossing_build_triangles(&b->triangles[part], f->position, skin->triangle + p->first_triangle, p->ntriangles);
+        b->made |= 1u << part;
+    }
+    pthread_mutex_unlock(&b->making);
+    return b;
+}
+
+const CrossingSet *body_frame_edges(const BodyFrame *f, int part, Box cloth) {
+    const BodyBoxes *b = boxes_near(f, part, cloth);
+    return b ? &b->edges[part] : NULL;
+}
+
+const CrossingSet *body_frame_triangles(const BodyFrame *f, int part, Box cloth) {
+    const BodyBoxes *b = boxes_near(f, part, cloth);
+    return b ? &b->triangles[part] : NULL;
 }

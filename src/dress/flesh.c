@@ -146,6 +146,7 @@ static void give_way(BodyFrame *f, int p) {
         Vec3 skin = f->position[v], outwards = body_frame_rest_normal(f, part, v), n = outwards;
         double way = way_in(f, p, skin, give->level, give->by, most_at(f, p, skin), &n);
         f->position[v] = vec_mad(skin, outwards, -way);
+        box_add(&f->skin[p], f->position[v]);
         f->normal[v] = n;
     }
 }

@@ -97,11 +97,15 @@ static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, 
     if (body->unit != 1)
         for (int v = 0; v < ncells * npoints; v++) c->position[v] = vec_scale(c->position[v], body->unit);
     crossing_build_triangles(&c->set, c->position, c->triangle, ncells * ntriangles);
+    Box cloth = c->plain ? box_all() : crossing_box(&c->set);
     for (int p = 0; p < body->body->nparts; p++) {
         if (!(l->fit->collide & part_bit(body, p))) continue;
+        const CrossingSet *edges = body_frame_edges(body, p, cloth);
+        if (!edges) out->count.pairs_all += (long long)body->body->part[p].nedges * ncells * ntriangles;
+        if (!edges) continue;
         int before = out->count.hits;
-        int found = (c->plain ? crossing_find_plainly : crossing_find)(&body->edges[p], &c->set, c->found,
-                                                                       c->found_capacity, &out->count);
+        int found = (c->plain ? crossing_find_plainly : crossing_find)(edges, &c->set, c->found, c->found_capacity,
+                                                                       &out->count);
         if (found < out->count.hits - before) out->capped = true;
         for (int k = 0; k < found; k++) {
             int cell = c->found[k].triangle / ntriangles;

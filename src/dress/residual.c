@@ -99,15 +99,22 @@ static void add_hits(Tester *t, const TesterCloth *c, const BodyFrame *body, int
 
 static void cross(Tester *t, const TesterCloth *c, const BodyFrame *body, unsigned parts, Residual *own,
                   Residual *other, CrossingCount *count) {
+    Box cloth = crossing_box(&c->edges);
     for (int p = 0; p < body->body->nparts; p++) {
+        const BodyPart *part = &body->body->part[p];
         unsigned bit = part_bit(body, p);
         if (!(parts & bit)) continue;
+        const CrossingSet *edges = body_frame_edges(body, p, cloth), *triangles = body_frame_triangles(body, p, cloth);
+        if (!edges || !triangles) { /* nothing to find, but pairs all the same */
+            count->pairs_all += (long long)part->nedges * c->ntriangles + (long long)c->nedges * part->ntriangles;
+            continue;
+        }
         Residual *r = t->own & bit ? own : other;
         int before = count->hits;
-        add_hits(t, c, body, p, 3, crossing_find(&body->edges[p], &c->triangles, t->found, FOUND_MAX, count));
+        add_hits(t, c, body, p, 3, crossing_find(edges, &c->triangles, t->found, FOUND_MAX, count));
         r->edges += count->hits - before;
         before = count->hits;
-        add_hits(t, c, body, p, 2, crossing_find(&c->edges, &body->triangles[p], t->found, FOUND_MAX, count));
+        add_hits(t, c, body, p, 2, crossing_find(&c->edges, triangles, t->found, FOUND_MAX, count));
         r->cloth += count->hits - before;
     }
 }

@@ -47,6 +47,18 @@ static float reach_of(const CrossingSet *set) {
     return reach;
 }
 
+Box crossing_box(const CrossingSet *set) {
+    Box box = box_empty();
+    for (int t = 0; t < top_tiles(set); t++)
+        for (int k = 0; k < LANES; k++) {
+            const Tile *top = &set->level[TOP][t];
+            if (top->low[0][k] > top->high[0][k]) continue;
+            box_add(&box, vec(top->low[0][k], top->low[1][k], top->low[2][k]));
+            box_add(&box, vec(top->high[0][k], top->high[1][k], top->high[2][k]));
+        }
+    return box;
+}
+
 static void build(CrossingSet *set, const Vec3 *position, const int *index, int n, int corners, TileBoxes *boxes) {
     set->position = position;
     set->index = index;
