@@ -131,6 +131,13 @@ static void memory_is_bounded(void) {
     OK(!arena_array(&arena, SIZE_MAX / 2, 3, &e) && e.kind == ERR_INTERNAL, "no product of sizes overflows");
     arena_free(&arena);
     OK(arena.held == 0, "all is given back");
+
+    arena = (Arena){0};
+    bool good = true;
+    for (int k = 0; k < 300; k++) good = ARENA_NEW(&arena, char, k % 3 == 0 ? 700000 : 20000, &e) && good;
+    OK(good && arena.held < 1.1 * (double)arena.used, "little is left over of blocks: %zu of %zu KB",
+       (arena.held - arena.used) >> 10, arena.held >> 10);
+    arena_free(&arena);
 }
 
 static void digests_differ(void) {

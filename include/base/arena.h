@@ -11,7 +11,7 @@ typedef struct ArenaBlock ArenaBlock;
 
 /* Clear with {0} for an arena without a limit. */
 typedef struct {
-    ArenaBlock *first, *current; /* private */
+    ArenaBlock *first, *last;    /* private */
     size_t limit;                /* bytes it may hold in all; 0 = no limit */
     size_t used, peak, held;     /* bytes handed out, their maximum, bytes taken from libc */
     long fail_after;             /* for tests: the n-th allocation from now fails; 0 = never */

@@ -1,13 +1,14 @@
-/* A chain of blocks, each twice as large as the one before, up to a few megabytes; reset keeps them. The
-   system gives blocks full of zeros, and large ones without memory behind them until it is used: only what
-   has been handed out before is cleared. */
+/* A chain of blocks, each twice as large as the one before, up to two megabytes, or as large as what is asked for;
+   reset keeps them. They are few, so that every allocation looks for the first one with room: what a large array left
+   at the end of a block is taken by smaller ones. The system gives blocks full of zeros, and large ones without memory
+   behind them until it is used: only what has been handed out before is cleared. */
 #include "base/arena.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { ALIGN = 64, FIRST_BLOCK = 64 << 10, LARGE_BLOCK = 4 << 20 };
+enum { ALIGN = 64, FIRST_BLOCK = 64 << 10, LARGE_BLOCK = 2 << 20 };
 
 struct ArenaBlock {
     ArenaBlock *next;
@@ -22,7 +23,7 @@ struct ArenaBlock {
 static bool is_beyond(const Arena *a, size_t size) { return a->limit && a->held + size + HEAD > a->limit; }
 
 static ArenaBlock *new_block(Arena *a, size_t need) {
-    size_t size = a->current ? a->current->size * 2 : FIRST_BLOCK;
+    size_t size = a->last ? a->last->size * 2 : FIRST_BLOCK;
     if (size > LARGE_BLOCK) size = LARGE_BLOCK;
     if (size < need || is_beyond(a, size)) size = need;
     if (is_beyond(a, size)) return NULL;
@@ -31,19 +32,16 @@ static ArenaBlock *new_block(Arena *a, size_t need) {
     char *data = (char *)(b + 1);
     *b = (ArenaBlock){.data = data + (ALIGN - (uintptr_t)data % ALIGN) % ALIGN, .size = size};
     a->held += HEAD + size;
-    if (a->current) a->current->next = b;
+    if (a->last) a->last->next = b;
     else a->first = b;
+    a->last = b;
     return b;
 }
 
 static void *take(Arena *a, size_t bytes) {
-    while (a->current && a->current->size - a->current->used < bytes && a->current->next) a->current = a->current->next;
-    if (!a->current || a->current->size - a->current->used < bytes) {
-        ArenaBlock *b = new_block(a, bytes);
-        if (!b) return NULL;
-        a->current = b;
-    }
-    ArenaBlock *b = a->current;
+    ArenaBlock *b = a->first;
+    while (b && b->size - b->used < bytes) b = b->next;
+    if (!b && !(b = new_block(a, bytes))) return NULL;
     char *p = b->data + b->used;
     if (b->touched > b->used) memset(p, 0, b->touched - b->used < bytes ? b->touched - b->used : bytes);
     b->used += bytes;
@@ -80,7 +78,6 @@ void arena_reset(Arena *a) {
 #endif
         b->used = 0;
     }
-    a->current = a->first;
     a->used = 0;
 }
 
@@ -89,6 +86,6 @@ void arena_free(Arena *a) {
         next = b->next;
         free(b);
     }
-    a->first = a->current = NULL;
+    a->first = a->last = NULL;
     a->used = a->held = 0;
 }
