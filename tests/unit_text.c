@@ -134,7 +134,7 @@ static void memory_is_bounded(void) {
 
     arena = (Arena){0};
     bool good = true;
-    for (int k = 0; k < 300; k++) good = ARENA_NEW(&arena, char, k % 3 == 0 ? 700000 : 20000, &e) && good;
+    for (int k = 0; k < 2000; k++) good = ARENA_NEW(&arena, char, k % 20 == 0 ? 700000 : 20000, &e) && good;
     OK(good && arena.held < 1.1 * (double)arena.used, "little is left over of blocks: %zu of %zu KB",
        (arena.held - arena.used) >> 10, arena.held >> 10);
     arena_free(&arena);
