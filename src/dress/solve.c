@@ -15,13 +15,16 @@
    vertices that were asked. */
 enum { ROUNDS_MAX = 9, SOLVE_EVERY = 3 };
 enum { MANY = 4 }; /* where more than this part of the vertices has moved, the whole mesh is tested */
-static const double FAR = 0.5;      /* of the cap: cloth moved farther than that is tried anew from its global shape, */
+static const double FAR = 0.65;     /* of the cap: cloth moved farther than that is tried anew from its global shape, */
 static const double CLOSER = 0.6;   /* and left there if that share of the way does as well */
 static const double THROWN = 2;     /* residuals of cloth at the cap count 1 + this */
 static const double HOPELESS = 0.03;/* residuals per edge of the mesh: no attempt has ever mended that many */
 static const double NEAR = 0.45;    /* of the cap, in the last attempt */
-static const double HEADWAY = 0.7;  /* of the bad vertices may be left after that, or it is given up */
+static const double HEADWAY = 0.7;  /* of the bad vertices may be left after a solution, or it is given up */
 static const double RAISE = 0.002;  /* metres of clearance added in a round where something crosses, on 1.70 m */
+/* How far a level is moved against the next finer one: in a tight garment less, so that a place that is pinched
+   carries less of its neighbours away; a loose one gives way as a whole. */
+static const double TIGHT = 0.7, LOOSE = 1;
 enum { FLAT_ROUNDS = 4, FLAT_MOST = 256 };
 static const double FLAT = 5e-6;    /* metres: no facet is left less high than that */
 
@@ -167,18 +170,10 @@ static void take_back(Solver *s, const BodyFrame *body, CrossingCount *count) {
     test_mesh(s, body, count);
 }
 
-/* How far a level is moved against the next finer one: in a tight garment less, so that a place that is pinched
-   carries less of its neighbours away; a loose one gives way as a whole. `turned`: the other way. */
-static double coarser_of(const Solver *s, bool turned) {
-    static const double TIGHT = 0.7, LOOSE = 1;
-    return s->fit->garment->loose != turned ? LOOSE : TIGHT;
-}
-
 /* Where an attempt leaves something of the parts that the garment is worn over, others are made from the
-   global shape alone: as if nothing had been before; with finer patches where that leaves something; with
-   coarse and fine levels weighed anew; and so that nothing may move far, for what has been thrown across
-   a limb comes to rest beside it then. The best stays. */
-enum { CARRIED, FRESH, FINER, WEIGHED, CLOSE_BY, ATTEMPTS };
+   global shape alone: as if nothing had been before; with finer patches where that leaves something; and so that
+   nothing may move far, for what has been thrown across a limb comes to rest beside it then. The best stays. */
+enum { CARRIED, FRESH, FINER, CLOSE_BY, ATTEMPTS };
 static void prepare(Solver *s, int attempt, double cap) {
     if (attempt == FRESH) {
         leaves_copy(&s->fresh, &s->leaves);
@@ -187,7 +182,7 @@ static void prepare(Solver *s, int attempt, double cap) {
         split_where_bad(s);
     }
     if (attempt > CARRIED) field_forget(&s->push.field);
-    s->push.coarser = coarser_of(s, attempt == WEIGHED);
+    s->push.coarser = s->fit->garment->loose ? LOOSE : TIGHT;
     s->push.field.cap = attempt == CLOSE_BY ? NEAR * cap : cap;
 }
 
