@@ -7,7 +7,7 @@
 
 /* Zero means the default in brackets. */
 typedef struct {
-    int position_bits;  /* 1..30 [14]; a step is the largest extent / (2^bits - 1) */
+    int position_bits;  /* 1..30 [16]; a step is the largest extent / (2^bits - 1) */
     int normal_bits;    /* 2..30 [10] */
     int uv_bits;        /* 1..30 [12] */
     int speed;          /* 0 smallest .. 10 fastest; stored as speed + 1 so that 0 = [7] */

@@ -113,7 +113,7 @@ const Option settings_table[] = {
     {"force", 'f', KIND_FLAG, FIELD(force), NULL, "Output", COMMAND_DRESS,
      "replace motion folders that are there already", .manner = true},
     {"draco-position-bits", 0, KIND_INT, FIELD(drc.position_bits), "N", "Output", COMMAND_DRESS,
-     "quantisation of positions", .fallback = "14", RANGE(1, 30)},
+     "quantisation of positions", .fallback = "16", RANGE(1, 30)},
     {"draco-normal-bits", 0, KIND_INT, FIELD(drc.normal_bits), "N", "Output", COMMAND_DRESS,
      "quantisation of normals", .fallback = "10", RANGE(2, 30)},
     {"draco-uv-bits", 0, KIND_INT, FIELD(drc.uv_bits), "N", "Output", COMMAND_DRESS,

@@ -43,7 +43,7 @@ static void make_sheet(Sheet *s, const char *folder, int vertices, Arena *arena)
     snprintf(s->path, sizeof s->path, "%s/ours", folder);
     snprintf(s->other, sizeof s->other, "%s/other.obj", folder);
     snprintf(s->command, sizeof s->command,
-             "draco_encoder -i %s -o %s/other.drc -qp 14 -qn 10 -qt 12 -cl 3 >%s/said", s->other, folder, folder);
+             "draco_encoder -i %s -o %s/other.drc -qp 16 -qn 10 -qt 12 -cl 3 >%s/said", s->other, folder, folder);
 }
 
 static void our_obj(void *context) {
