@@ -190,6 +190,23 @@ static void test_many(const Body *b) {
     }
 }
 
+/* A point that is asked again, nearer and farther, answers as one that is asked for the first time. */
+static void test_looks(const Body *b) {
+    static const double reaches[] = {0.01, 0, INFINITY, 0.04, 0.01};
+    int wrong = 0;
+    for (int k = 0; k < 20000; k++) {
+        const BodyPart *part = &b->part[k % b->nparts];
+        double width = 1.5 * part->reach * dice_unit(), phi = 2 * PI * dice_unit();
+        BodyLook look = {.p = vec(width * sin(phi), height_at(part, 1.2 * dice_unit() - 0.1), width * cos(phi))};
+        for (int r = 0; r < 5; r++) {
+            Vec3 n = {0, 0, 0}, again = {0, 0, 0};
+            wrong += body_distance(part, look.p, reaches[r], &n) != body_look(part, &look, reaches[r], &again);
+            wrong += vec_dist(n, again) != 0;
+        }
+    }
+    OK(wrong == 0, "a point that is asked again answers the same (%d differ)", wrong);
+}
+
 static void test_patches(const Body *b) {
     const Patch *patch = b->patch;
     int open_rows = 0, open_sides = 0, inward = 0;
@@ -281,6 +298,7 @@ int main(void) {
         test_distance(&reference);
         test_bounds(&reference);
         test_many(&reference);
+        test_looks(&reference);
         test_patches(&reference);
         test_monotone(&reference);
         test_pose(&reference);

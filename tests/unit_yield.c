@@ -1,6 +1,9 @@
 /* Flesh that gives way: parts that press on each other leave room for cloth, and nothing else
    changes. */
 #include "dice.h"
+#include <string.h>
+
+#include "dice.h"
 #include "scene.h"
 
 /* The reference figure with both arms hanging so close that they press into the trunk. */
@@ -113,6 +116,28 @@ static void shares(void) {
        "calf and thigh press on each other, so do both thighs");
 }
 
+static Vec3 direction(void) {
+    return vec_unit_or(vec(dice_unit() - 0.5, dice_unit() - 0.5, dice_unit() - 0.5), vec(1, 0, 0));
+}
+
+/* The cheap question is answered with no only where nothing is given way, though the normal is known roughly. */
+static void no_means_no(void) {
+    int asked = 0, no = 0, wrong = 0;
+    for (int a = 0; a < ROLE_COUNT; a++)
+        for (int b = 0; b < ROLE_COUNT; b++) {
+            Contact x, y;
+            if (a == b || !yield_concerns((Role)a, (Role)b)) continue;
+            yield_contact((Role)a, (Role)b, 1, &x, &y);
+            for (int k = 0; k < 300; k++, asked++) {
+                Vec3 n = direction(), away = direction(), rough = vec_unit_or(vec_mad(n, direction(), 0.1), n);
+                if (yield_may(&x, rough, away)) continue;
+                no++;
+                wrong += yield_by(&x, 1, vec(0, 0, 0), -0.05 * dice_unit(), -0.05 * dice_unit(), away, &n) > 0;
+            }
+        }
+    OK(no > 1000 && no < asked && wrong == 0, "parts give way nowhere that they may not (%d of %d)", no, asked);
+}
+
 /* It is a function of the pose that has no jumps: a degree more never moves the skin by a centimetre. */
 static void no_jumps(Scene *s) {
     Arena arena = {0};
@@ -163,15 +188,36 @@ static void folds_flat(Scene *s) {
     }
 }
 
+/* The skin stays in the box that tells whether a garment is near, and far from it nobody gets boxes. */
+static void boxes_hold_the_skin(Scene *s) {
+    Pose pose = arms_down(s, 45);
+    int out = 0, boxes = 0;
+    scene_leg(s, &pose, true, 100, 140);
+    body_frame_pose(&s->posed, &pose);
+    for (int p = 0; p < s->body.nparts; p++) {
+        const BodyPart *part = &s->body.part[p];
+        Box b = s->posed.skin[p], above = {vec(-1, 9, -1), vec(1, 10, 1)};
+        for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++) {
+            Box grown = b;
+            box_add(&grown, s->posed.position[v]);
+            out += memcmp(&grown, &b, sizeof b) != 0;
+        }
+        boxes += body_frame_edges(&s->posed, p, above) != NULL;
+    }
+    OK(out == 0 && boxes == 0, "skin is where its boxes say (%d vertices are not)", out);
+}
+
 int main(void) {
     Scene s;
     scene_open(&s, "skirt");
     shares();
+    no_means_no();
     free_skin_stays(&s);
     room_is_made(&s);
     skin_is_the_surface(&s);
     no_jumps(&s);
     folds_flat(&s);
+    boxes_hold_the_skin(&s);
     arena_free(&s.arena);
     return tap_done();
 }
