@@ -1,6 +1,5 @@
 /* Flesh that gives way: parts that press on each other leave room for cloth, and nothing else
    changes. */
-#include "dice.h"
 #include <string.h>
 
 #include "dice.h"
