@@ -69,6 +69,9 @@ void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *s
    projection onto half spaces, in sweeps. May be called again, with other clearances; adds to *result. */
 void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
 
+/* Moves a single vertex by so much more; no farther from the global shape than the cap. */
+void push_vertex(Push *p, int vertex, Vec3 by, bool *capped);
+
 /* Instead of solving: leaves the sheet on the global shape. */
 void push_rest(Push *p, const Sheet *sheet);
 

@@ -107,9 +107,9 @@ static Box reach(const Denter *d) {
     return (Box){vec_sub(box.low, far), vec_add(box.high, far)};
 }
 
-static void set_dent(Push *p, const Sheet *sheet, int vertex, Vec3 dent) {
+static void set_dent(Push *p, const Sheet *sheet, int vertex, Vec3 dent, bool *capped) {
     int place = sheet->place[vertex];
-    p->point[vertex] = vec_add(p->point[vertex], vec_sub(dent, p->field.dent.at[place]));
+    push_vertex(p, vertex, vec_sub(dent, p->field.dent.at[place]), capped);
     field_set_spot(&p->field.dent, place, dent);
 }
 
@@ -122,9 +122,8 @@ static void press_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int
     double way = escape_free(&p->escape, body, place, at, p->clearance[vertex], n, depth);
     if (way <= 0) return;
     bool capped;
-    Vec3 dent = p->field.dent.at[place], far = vec_sub(vec_mad(at, n, way), p->global[vertex]);
-    Vec3 more = vec_sub(vec_add(p->global[vertex], field_limit(far, p->field.cap, &capped)), at);
-    set_dent(p, sheet, vertex, field_limit(vec_add(dent, more), DEEPEST * p->field.scale, &capped));
+    Vec3 deeper = vec_mad(p->field.dent.at[place], n, way);
+    set_dent(p, sheet, vertex, field_limit(deeper, DEEPEST * p->field.scale, &capped), &capped);
 }
 
 static void press_held(const Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
@@ -155,13 +154,14 @@ void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
 
 void dent_add(const Denter *d, Push *p, const Sheet *sheet, int vertex, Vec3 by, double most, bool *capped) {
     Vec3 more = vec_sub(vec_add(p->field.dent.at[sheet->place[vertex]], by), d->hollow[vertex]);
-    set_dent(p, sheet, vertex, vec_add(d->hollow[vertex], field_limit(more, most, capped)));
+    set_dent(p, sheet, vertex, vec_add(d->hollow[vertex], field_limit(more, most, capped)), capped);
 }
 
 void dent_back(Denter *d, Push *p, const Sheet *sheet, int vertex) {
     int place = sheet->place[vertex];
     if (d->is_barred[place] || field_is_zero(p->field.dent.at[place])) return;
-    set_dent(p, sheet, vertex, vec(0, 0, 0));
+    bool capped;
+    set_dent(p, sheet, vertex, vec(0, 0, 0), &capped);
     d->barred[d->nbarred++] = place;
     d->is_barred[place] = true;
 }

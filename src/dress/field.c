@@ -7,7 +7,7 @@
 static const double FADE = 0.8;                   /* of the carried displacement, in 1/30 s, */
 static const double SINK = 0.12;                  /* but no faster than that, metres a second on 1.70 m */
 static const double FELT = 0.0002;                /* metres on 1.70 m: a carried displacement below this is dropped */
-static const double CAP_LOOSE = 7, CAP_TIGHT = 9; /* parts of the height */
+static const double CAP_LOOSE = 7, CAP_TIGHT = 16; /* parts of the height */
 
 static bool reserve_spots(FieldSpots *s, int nplaces, Arena *arena, Error *e) {
     s->at = ARENA_NEW(arena, Vec3, nplaces, e);

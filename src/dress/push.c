@@ -341,6 +341,11 @@ void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *
     if (moved > 0) find_points(p, sheet);
 }
 
+void push_vertex(Push *p, int vertex, Vec3 by, bool *capped) {
+    Vec3 d = vec_add(vec_sub(p->point[vertex], p->global[vertex]), by);
+    p->point[vertex] = vec_add(p->global[vertex], field_limit(d, p->field.cap, capped));
+}
+
 void push_clear(const Push *p, const Sheet *sheet, bool *clear) {
     for (int v = 0; v < sheet->nvertices; v++) clear[v] = p->near_known && near_clear(&p->near[v], p->point[v]);
 }

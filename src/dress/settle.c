@@ -43,7 +43,7 @@ static void move(const Settler *s, Push *p, const Sheet *sheet, int vertex, Vec3
     int place = sheet->place[vertex];
     Vec3 offset = p->field.offset.at[place];
     Vec3 longer = field_limit(vec_add(offset, by), most, capped);
-    p->point[vertex] = vec_add(p->point[vertex], vec_sub(longer, offset));
+    push_vertex(p, vertex, vec_sub(longer, offset), capped);
     field_set_spot(&p->field.offset, place, longer);
 }
 
