@@ -125,16 +125,16 @@ static Wrong attempt(Solver *s, const BodyFrame *body, FrameStats *stats, PushRe
         bool raised = false, solve = round % SOLVE_EVERY == SOLVE_EVERY - 1;
         for (int k = 0; !is_spoilt && k < s->tester.nbad; k++)
             raised |= settle_raise(&s->settler, &s->push, s->tester.bad[k], RAISE, RAISE * (round + 1));
-        settle_mark(&s->settler, &s->push, &s->sheet);
-        for (int k = 0; raised && k < s->tester.nhits; k++)
-            settle_hit(&s->settler, &s->push, body, &s->sheet, &s->tester.hit[k]);
         start = clock_seconds();
         stats->test_s += start - pushed;
         bool hopeless = solve && (is_clean || s->tester.nbad > HEADWAY * before);
-        if (!raised || round == ROUNDS_MAX || hopeless) {
+        if (!raised || round == ROUNDS_MAX || hopeless) { /* nothing has moved since the test */
             push_measure(&s->push, body, &s->sheet, result);
             return w;
         }
+        settle_mark(&s->settler, &s->push, &s->sheet);
+        for (int k = 0; k < s->tester.nhits; k++)
+            settle_hit(&s->settler, &s->push, body, &s->sheet, &s->tester.hit[k]);
         if (solve) push_all(s, body, result);
         else settle_raised(&s->settler, &s->push, body, &s->sheet, &result->capped);
         if (solve) before = s->tester.nbad;
