@@ -12,14 +12,18 @@ typedef struct {
 } Presser;
 
 typedef struct {
+    int nplaces;          /* of the lattice */
     bool is_off;          /* nothing is pressed in: it did harm in an attempt before */
     Presser *presser;
     int npressers;
     Vec3 *hollow;         /* per vertex: how far it was pressed in, not counting single vertices */
     Vec3 *held;           /* what is left of the hollows of the frame that this one goes on from, */
     int *held_at, nheld;  /* and at which places */
-    bool *is_barred;      /* per place: there the hollow would go through what it is worn over; */
-    int *barred, nbarred; /* the places that are */
+    double *spare;        /* per place: metres more that the hollow keeps from what it is worn over, for between its
+                             vertices it would go through that */
+    bool any_spare;
+    bool *is_back;        /* per place: taken back in this round; */
+    int *back, nback;     /* the places that are */
 } Denter;
 
 MUST_CHECK bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e);
@@ -27,8 +31,11 @@ MUST_CHECK bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Er
 /* Takes the hollows of a frame along that is dt seconds old. goes_on: whether the frame of `body` goes on from it. */
 void dent_carry(Denter *d, const Field *last, const BodyFrame *body, double dt, bool goes_on);
 
-/* Begins anew: no place is barred. */
+/* Begins anew: hollows may be as deep as there is room. */
 void dent_start(Denter *d);
+
+/* Begins a round, in which a vertex is taken back once at most. */
+void dent_round(Denter *d);
 
 /* Presses the vertices of a sheet in that parts from outside are too near to, with those round them; only as far as
    there is room in front of what they are worn over. */
@@ -37,7 +44,7 @@ void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet);
 /* Moves a single vertex by so much more, at most that far from where its hollow is. */
 void dent_add(const Denter *d, Push *p, const Sheet *sheet, int vertex, Vec3 by, double most, bool *capped);
 
-/* Takes a vertex back out of its hollow, and bars its place. */
+/* Takes a vertex back out of its hollow, the farther the more often it is asked, and keeps it from there. */
 void dent_back(Denter *d, Push *p, const Sheet *sheet, int vertex);
 
 #endif

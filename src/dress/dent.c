@@ -6,11 +6,13 @@
 #include "dress/dent.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "geometry/boxtree.h"
 
 enum { PASSES = 2 }; /* a hollow may bring others to the arm that went past it */
 static const double DEEPEST = 0.10;            /* metres on 1.70 m */
+static const double BACK = 0.005, MOST_BACK = 0.03; /* first step out of a hollow; after so much it is given up */
 static const double WIDE = 0.05, WIDENS = 2.5; /* radius of a hollow: that, and this times its depth */
 
 bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e) {
@@ -19,9 +21,11 @@ bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e) {
     d->hollow = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
     d->held = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
     d->held_at = ARENA_NEW(arena, int, lattice->nplaces, e);
-    d->is_barred = ARENA_NEW(arena, bool, lattice->nplaces, e);
-    d->barred = ARENA_NEW(arena, int, lattice->nplaces, e);
-    return d->presser && d->hollow && d->held && d->held_at && d->is_barred && d->barred;
+    d->nplaces = lattice->nplaces;
+    d->spare = ARENA_NEW(arena, double, lattice->nplaces, e);
+    d->is_back = ARENA_NEW(arena, bool, lattice->nplaces, e);
+    d->back = ARENA_NEW(arena, int, lattice->nplaces, e);
+    return d->presser && d->hollow && d->held && d->held_at && d->spare && d->is_back && d->back;
 }
 
 void dent_carry(Denter *d, const Field *last, const BodyFrame *body, double dt, bool goes_on) {
@@ -37,8 +41,14 @@ void dent_carry(Denter *d, const Field *last, const BodyFrame *body, double dt, 
 }
 
 void dent_start(Denter *d) {
-    for (int k = 0; k < d->nbarred; k++) d->is_barred[d->barred[k]] = false;
-    d->nbarred = 0;
+    dent_round(d);
+    if (d->any_spare) memset(d->spare, 0, (size_t)d->nplaces * sizeof *d->spare);
+    d->any_spare = false;
+}
+
+void dent_round(Denter *d) {
+    for (int k = 0; k < d->nback; k++) d->is_back[d->back[k]] = false;
+    d->nback = 0;
 }
 
 /* The farthest that parts from outside press a vertex. Those that the garment is worn over elsewhere have moved it
@@ -49,7 +59,7 @@ static Vec3 press_of(const Push *p, const BodyFrame *body, const Sheet *sheet, i
     double most = DEEPEST * p->field.scale, farthest = 0;
     Vec3 press = {0, 0, 0}, n;
     EscapePoint at;
-    escape_at(&at, place, p->point[vertex], p->clearance[vertex]);
+    escape_at(&at, place, p->point[vertex], PUSH_MARGIN * p->field.scale);
     for (int k = 0; k < body->body->nparts; k++) {
         if ((l->collide[place] | l->fit->collide) & part_bit(body, k)) continue;
         if (body_frame_far(body, k, at.point.at, at.clearance)) continue;
@@ -114,12 +124,12 @@ static void set_dent(Push *p, const Sheet *sheet, int vertex, Vec3 dent, bool *c
 }
 
 /* Presses a vertex in by `hollow`, as far as there is room. */
-static void press_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, Vec3 hollow) {
+static void press_vertex(const Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, Vec3 hollow) {
     int place = sheet->place[vertex];
-    double depth = vec_len(hollow);
-    if (depth <= 0) return;
+    double depth = vec_len(hollow), clearance = p->clearance[vertex] + d->spare[place];
+    if (depth <= 0 || d->spare[place] > MOST_BACK * p->field.scale) return;
     Vec3 at = p->point[vertex], n = vec_scale(hollow, 1 / depth);
-    double way = escape_free(&p->escape, body, place, at, p->clearance[vertex], n, depth);
+    double way = escape_free(&p->escape, body, place, at, clearance, n, depth);
     if (way <= 0) return;
     bool capped;
     Vec3 deeper = vec_mad(p->field.dent.at[place], n, way);
@@ -128,8 +138,8 @@ static void press_vertex(Push *p, const BodyFrame *body, const Sheet *sheet, int
 
 static void press_held(const Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
     for (int k = 0; k < d->nheld; k++) {
-        int place = d->held_at[k], vertex = sheet->vertex[place];
-        if (vertex >= 0 && !d->is_barred[place]) press_vertex(p, body, sheet, vertex, d->held[k]);
+        int vertex = sheet->vertex[d->held_at[k]];
+        if (vertex >= 0) press_vertex(d, p, body, sheet, vertex, d->held[k]);
     }
 }
 
@@ -137,8 +147,7 @@ static void press_in(const Denter *d, Push *p, const BodyFrame *body, const Shee
     Box box = reach(d);
     for (int v = 0; v < sheet->nvertices; v++) {
         Vec3 at = p->point[v];
-        if (!d->is_barred[sheet->place[v]] && box_touches(box, (Box){at, at}))
-            press_vertex(p, body, sheet, v, hollow_at(d, at));
+        if (box_touches(box, (Box){at, at})) press_vertex(d, p, body, sheet, v, hollow_at(d, at));
     }
 }
 
@@ -159,9 +168,13 @@ void dent_add(const Denter *d, Push *p, const Sheet *sheet, int vertex, Vec3 by,
 
 void dent_back(Denter *d, Push *p, const Sheet *sheet, int vertex) {
     int place = sheet->place[vertex];
-    if (d->is_barred[place] || field_is_zero(p->field.dent.at[place])) return;
-    bool capped;
-    set_dent(p, sheet, vertex, vec(0, 0, 0), &capped);
-    d->barred[d->nbarred++] = place;
-    d->is_barred[place] = true;
+    Vec3 dent = p->field.dent.at[place];
+    if (d->is_back[place] || field_is_zero(dent)) return;
+    double *spare = &d->spare[place], step = *spare + BACK * p->field.scale, depth = vec_len(dent);
+    *spare += step;
+    d->any_spare = true;
+    bool capped, is_out = *spare > MOST_BACK * p->field.scale || step >= depth;
+    set_dent(p, sheet, vertex, is_out ? vec(0, 0, 0) : vec_scale(dent, 1 - step / depth), &capped);
+    d->back[d->nback++] = place;
+    d->is_back[place] = true;
 }

@@ -144,6 +144,7 @@ void settle_hit(Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, 
 }
 
 void settle_mark(Settler *s, const Push *p, const Sheet *sheet) {
+    dent_round(&s->denter);
     s->nmarked = s->nraised;
     for (int k = 0; k < s->nmarked && k < MARKED_MOST; k++) {
         s->was_offset[k] = p->field.offset.at[sheet->place[s->raised[k]]];

@@ -192,14 +192,15 @@ typedef struct {
 } Outcome;
 
 /* Parts that the garment is worn over count first: nothing of them may show. Among outcomes that leave some, and
-   among those that do not, cloth that has been thrown far counts too. */
+   among those that do not, cloth that has been thrown far counts too. For parts from outside alone cloth does not
+   jump unless nothing is left of them. */
 static bool is_better(const Outcome *a, const Outcome *b, double cap) {
     int own_a = total(&a->wrong.own), own_b = total(&b->wrong.own);
     double far_a = a->push.displacement / cap, far_b = b->push.displacement / cap;
     if (own_a > 0 && own_b > 0) return own_a * (1 + THROWN * far_a) < own_b * (1 + THROWN * far_b);
     if (own_a + own_b > 0) return own_a == 0;
     if (far_b > FAR && far_a < CLOSER * far_b) return true;
-    return total(&a->wrong.other) < total(&b->wrong.other) && far_a <= fmax(far_b, FAR);
+    return total(&a->wrong.other) == 0 && total(&b->wrong.other) > 0 && far_a <= fmax(far_b, FAR);
 }
 
 /* Is attempt k worth making? Where something is left, but not so much that the body leaves no room at all; and
