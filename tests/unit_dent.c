@@ -2,16 +2,6 @@
    there is room; where there is none the hip wins, and the frame says so. */
 #include "scene.h"
 
-/* The left arm, turned towards the trunk by `degrees`. */
-static Pose reaching(const Scene *s, double degrees) {
-    Pose pose = figure_rest_pose();
-    Mat3 turn = mat_axis_angle(vec(0, 0, 1), -degrees * PI / 180);
-    Vec3 pivot = s->figure.start[ROLE_LEFT_UPPER_ARM];
-    Rigid about = {turn, vec_sub(pivot, mat_apply(turn, pivot))};
-    for (int r = ROLE_LEFT_UPPER_ARM; r <= ROLE_LEFT_HAND; r++) pose.bone[r] = rigid_mul(about, pose.bone[r]);
-    return pose;
-}
-
 static int shows(const FrameStats *s) { return s->limb_edges + s->limb_cloth + s->limb_inside; }
 static int own_shows(const FrameStats *s) { return s->residual_edges + s->residual_cloth + s->inside; }
 
@@ -31,7 +21,7 @@ static void hand_on_cloth(const char *garment, double touches, double presses, d
     Dresser *global = scene_dresser(&s, fixed);
     for (int k = 0; k < 2; k++) {
         double degrees = k ? presses : touches;
-        Pose pose = reaching(&s, degrees);
+        Pose pose = scene_reaching(&s, degrees);
         Mesh mesh;
         FrameStats without = scene_frame(&s, global, &pose, 0, TIE_AFRESH, &mesh);
         double plain = longest_edge(&mesh);
@@ -42,7 +32,7 @@ static void hand_on_cloth(const char *garment, double touches, double presses, d
            1000 * plain);
         OK(with.pinched == 0, "there is room");
     }
-    Pose pose = reaching(&s, sinks);
+    Pose pose = scene_reaching(&s, sinks);
     Mesh mesh;
     FrameStats with = scene_frame(&s, push, &pose, 0, TIE_AFRESH, &mesh);
     OK(shows(&with) > 0 && with.pinched > 0, "%s: at %g there is none, and %d vertices tell", garment, sinks,

@@ -124,16 +124,6 @@ static void rate_does_not_matter(const char *name) {
     arena_free(&s.arena);
 }
 
-/* The left arm, turned towards the trunk by `degrees`. */
-static Pose reaching(const Scene *s, double degrees) {
-    Pose pose = figure_rest_pose();
-    Mat3 turn = mat_axis_angle(vec(0, 0, 1), -degrees * PI / 180);
-    Vec3 pivot = s->figure.start[ROLE_LEFT_UPPER_ARM];
-    Rigid about = {turn, vec_sub(pivot, mat_apply(turn, pivot))};
-    for (int r = ROLE_LEFT_UPPER_ARM; r <= ROLE_LEFT_HAND; r++) pose.bone[r] = rigid_mul(about, pose.bone[r]);
-    return pose;
-}
-
 /* An arm that comes to lie against the shirt and leaves it again, at 22 degrees a second: its elbow goes 1 mm a
    frame, and so does no vertex go much farther where contact begins or ends. Patches are not split, so that
    facets are wide: most of them touch before their corners do. */
@@ -145,7 +135,7 @@ static void contact_is_gentle(void) {
     Trace trace = {0};
     int touched = 0;
     for (int f = 0; f < FRAMES; f++) {
-        Pose pose = reaching(&s, 20 + 22 * (1 - fabs(2.0 * f / FRAMES - 1)));
+        Pose pose = scene_reaching(&s, 20 + 22 * (1 - fabs(2.0 * f / FRAMES - 1)));
         Mesh mesh;
         FrameStats stats = scene_frame(&s, d, &pose, 1 / 120.0, f == 0, &mesh);
         if (f == 0) trace_open(&trace, &s, mesh.nvertices, FRAMES);

@@ -35,6 +35,11 @@ MUST_CHECK bool escape_reserve(Escape *s, const Lattice *lattice, Arena *arena, 
 /* Remembers on which side of the body every place is: root patches in the bind pose. */
 void escape_bind(Escape *s, const Patch *root);
 
+/* Is cloth of a place worn over a part, or does that come to it from outside? */
+static inline bool escape_is_own(const Escape *s, const BodyFrame *body, int place, int part) {
+    return s->lattice->collide[place] & part_bit(body, part);
+}
+
 /* How far p, `distance` away from a part, must go along *n, the part's outward unit normal there, to be `wanted`
    away from it; metres. Turns *n where it leads to the wrong side. */
 double escape_way(const Escape *s, const BodyFrame *body, EscapePoint *p, int part, double wanted,

@@ -19,6 +19,14 @@ typedef struct {
     double weight[3];
 } TesterHit;
 
+/* The vertex of a hit that is nearest to where it is. */
+static inline int tester_hit_vertex(const TesterHit *hit) {
+    int nearest = 0;
+    for (int c = 1; c < hit->n; c++)
+        if (hit->weight[c] > hit->weight[nearest]) nearest = c;
+    return hit->v[nearest];
+}
+
 /* A garment mesh in output units, boxed for tests against the body, and room for what is found. */
 typedef struct {
     unsigned own;         /* parts (bits 1 << role) that the garment is worn over */

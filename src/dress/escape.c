@@ -23,11 +23,6 @@ void escape_bind(Escape *s, const Patch *root) {
     for (int place = 0; place < s->lattice->nplaces; place++) s->rest[place] = lattice_point(s->lattice, root, place);
 }
 
-/* Is p worn over a part, or does that come to it from outside? */
-static bool is_own(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part) {
-    return s->lattice->collide[p->place] & part_bit(body, part);
-}
-
 /* The distance to ask for from a part with outward normal n at p, `distance` away from it: the clearance, but where
    another part stands opposite no more than half the room between the two. Where there is none, a part that comes
    from outside asks for nothing. */
@@ -44,7 +39,8 @@ static double room_for(const Escape *s, const BodyFrame *body, EscapePoint *p, i
         opposite = other;
     }
     if (distance + far > 0) return 0.5 * (distance + far);
-    bool yields = opposite >= 0 && is_own(s, body, p, opposite) && !is_own(s, body, p, part);
+    bool yields =
+        opposite >= 0 && escape_is_own(s, body, p->place, opposite) && !escape_is_own(s, body, p->place, part);
     return yields ? distance : p->clearance;
 }
 
@@ -83,7 +79,7 @@ static bool side_of(const Escape *s, const BodyFrame *body, const EscapePoint *p
    other leg of trousers is left at that; for an arm the normal is bent into the garment, the more the less it
    leads there, so that one that sweeps through does not throw cloth to one side and then to the other. */
 static bool turn_inside(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, Vec3 *n) {
-    if (is_own(s, body, p, part)) {
+    if (escape_is_own(s, body, p->place, part)) {
         Vec3 side;
         if (!side_of(s, body, p, part, &side)) return false;
         double turn = 2 * (1 - smoothstep(-WRONG_SIDE, WRONG_SIDE, vec_dot(*n, side)));

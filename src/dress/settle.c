@@ -29,10 +29,6 @@ static unsigned parts_near(const BodyFrame *body, BodyPoint *p, double far) {
     return near;
 }
 
-static bool is_worn_over(const Push *p, const BodyFrame *body, int place, int part) {
-    return p->field.lattice->collide[place] & part_bit(body, part);
-}
-
 /* For a part that it is worn over a vertex gets an offset, for one from outside its hollow becomes deeper there. */
 static void move(const Settler *s, Push *p, const Sheet *sheet, int vertex, Vec3 by, bool is_worn, bool *capped) {
     double most = OFFSET_MAX * p->field.scale;
@@ -56,7 +52,7 @@ static bool step_out(const Push *p, const BodyFrame *body, EscapePoint *at, int 
     n = plain;
     double way = escape_asked(&p->escape, body, at, part, distance, &n);
     if (way <= 0) return false;
-    if (!is_worn_over(p, body, at->place, part)) {
+    if (!escape_is_own(&p->escape, body, at->place, part)) {
         if (way > most) {
             way = at->clearance - distance;
             n = plain;
@@ -82,7 +78,7 @@ static void settle_vertex(const Settler *s, Push *p, const BodyFrame *body, cons
             int part = near_first(left);
             Vec3 by;
             if (!step_out(p, body, &at, part, &by)) continue;
-            move(s, p, sheet, vertex, by, is_worn_over(p, body, at.place, part), capped);
+            move(s, p, sheet, vertex, by, escape_is_own(&p->escape, body, at.place, part), capped);
             body_point_move(&at.point, p->point[vertex]);
             moved = true;
         }
@@ -130,17 +126,15 @@ static void move_off(const Settler *s, Push *p, const BodyFrame *body, const She
 }
 
 void settle_hit(Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit) {
-    int nearest = 0;
     Vec3 x = {0, 0, 0};
     for (int c = 0; c < hit->n && p->field.lattice->fit->collide & part_bit(body, hit->part); c++)
         dent_back(&s->denter, p, sheet, hit->v[c]);
     for (int c = 0; c < hit->n; c++) {
         if (!is_raised(p, hit->v[c])) return;
         x = vec_mad(x, p->point[hit->v[c]], hit->weight[c]);
-        if (hit->weight[c] > hit->weight[nearest]) nearest = c;
     }
-    int place = sheet->place[hit->v[nearest]];
-    move_off(s, p, body, sheet, hit, place, x, is_worn_over(p, body, place, hit->part));
+    int place = sheet->place[tester_hit_vertex(hit)];
+    move_off(s, p, body, sheet, hit, place, x, escape_is_own(&p->escape, body, place, hit->part));
 }
 
 void settle_mark(Settler *s, const Push *p, const Sheet *sheet) {

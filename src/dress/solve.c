@@ -229,14 +229,10 @@ static int count_pinched(Solver *s, const BodyFrame *body) {
     for (int v = 0; v < s->sheet.nvertices; v++) s->clear[v] = true;
     for (int k = 0; k < s->tester.nhits; k++) {
         const TesterHit *hit = &s->tester.hit[k];
-        int nearest = 0;
+        int v = tester_hit_vertex(hit);
         Vec3 x = {0, 0, 0};
         if (s->fit->collide & part_bit(body, hit->part)) continue;
-        for (int c = 0; c < hit->n; c++) {
-            x = vec_mad(x, s->position[hit->v[c]], hit->weight[c] / body->unit);
-            if (hit->weight[c] > hit->weight[nearest]) nearest = c;
-        }
-        int v = hit->v[nearest];
+        for (int c = 0; c < hit->n; c++) x = vec_mad(x, s->position[hit->v[c]], hit->weight[c] / body->unit);
         unsigned worn = s->push.lattice->collide[s->sheet.place[v]];
         if (!s->clear[v] || !has_no_room(body, worn, hit->part, x, 2 * PUSH_MARGIN * s->push.field.scale)) continue;
         s->clear[v] = false;
