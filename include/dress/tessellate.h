@@ -25,6 +25,9 @@ MUST_CHECK bool sheet_reserve(Sheet *s, const Lattice *lattice, Arena *arena, Er
    are those of the last call cost nothing. */
 void tessellate(Sheet *s, const Leaves *leaves);
 
+/* The sheet as a mesh with these positions of its vertices. */
+Mesh sheet_mesh(const Sheet *s, Vec3 *position);
+
 /* The edges on borders of leaves, coarser than those tessellated or the same: each once, into room
    for 2 * nedges; returns how many. */
 int sheet_borders(const Sheet *s, const Leaves *leaves, Edge *out);

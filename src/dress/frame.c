@@ -73,7 +73,7 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
     if (!facing_reserve(&d->facing, places, triangles, arena, e)) return false;
     Pose rest = figure_rest_pose();
     follow_pose(&d->follower, &rest, d->root);
-    escape_bind(&d->solver.push.escape, d->root);
+    escape_bind(&d->solver.cloth.push.escape, d->root);
     if (options->method == METHOD_PAPER && !literal_reserve(&d->literal, &d->lattice, body, arena, e)) return false;
     *out = d;
     return true;
@@ -101,23 +101,18 @@ static void set_groups(Dresser *d, const int *first_of_patch, Mesh *mesh) {
 }
 
 static void fill_mesh(Dresser *d, Mesh *mesh) {
-    const Sheet *s = &d->solver.sheet;
+    const Sheet *s = &d->solver.cloth.sheet;
     int n = d->lattice.side + 1;
-    surface_normals(&d->solver.push.surface, s, &d->solver.push.field, d->root, d->normal);
+    surface_normals(&d->solver.cloth.push.surface, s, &d->solver.cloth.push.field, d->root, d->normal);
     for (int v = 0; v < s->nvertices; v++) {
         int owner = d->lattice.owner[s->place[v]];
         d->u[v] = (double)(owner / n % n) / d->lattice.side;
         d->w[v] = (double)(owner % n) / d->lattice.side;
     }
-    *mesh = (Mesh){.nvertices = s->nvertices,
-                   .ntriangles = s->ntriangles,
-                   .nedges = s->nedges,
-                   .position = d->solver.position,
-                   .normal = d->normal,
-                   .u = d->u,
-                   .w = d->w,
-                   .triangle = s->triangle,
-                   .edge = s->edge};
+    *mesh = sheet_mesh(s, d->solver.cloth.position);
+    mesh->normal = d->normal;
+    mesh->u = d->u;
+    mesh->w = d->w;
     facing_mend(&d->facing, mesh);
     set_groups(d, s->first_of_patch, mesh);
 }
@@ -127,38 +122,40 @@ static double plain_seconds(Dresser *d, const BodyFrame *body) {
     Classification found;
     double start = clock_seconds();
     d->classifier.plain = true;
-    classify(&d->classifier, d->root, body, d->options.split, &d->by_rule, &d->solver.leaves, &found);
+    classify(&d->classifier, d->root, body, d->options.split, &d->by_rule, &d->solver.cloth.leaves, &found);
     d->classifier.plain = false;
     return clock_seconds() - start;
 }
 
-static void split_by_rule(Dresser *d, const BodyFrame *body, FrameStats *stats, Classification *found) {
+static void split_by_rule(Dresser *d, const BodyFrame *body, FrameStats *stats) {
+    Classification found;
     if (d->options.plain_tests) stats->plain_s = plain_seconds(d, body);
     double start = clock_seconds();
-    classify(&d->classifier, d->root, body, d->options.split, &d->by_rule, &d->solver.leaves, found);
+    classify(&d->classifier, d->root, body, d->options.split, &d->by_rule, &d->solver.cloth.leaves, &found);
     stats->classify_s = stats->test_s = clock_seconds() - start;
-    stats->nodes = found->nodes;
-    stats->leaves = found->leaves;
-    stats->depth = found->depth;
-    stats->tests = found->count.pairs_all;
-    stats->tests_culled = found->count.pairs_tested;
+    stats->nodes = found.nodes;
+    stats->leaves = found.leaves;
+    stats->depth = found.depth;
+    stats->tests = stats->pairs_all = found.count.pairs_all;
+    stats->tests_culled = stats->pairs_tested = found.count.pairs_tested;
+    stats->hits_before = found.hits;
+    stats->capped = found.capped;
 }
 
 /* Split, move and repeat as the paper says, then the tests that all methods undergo. */
 static void frame_to_the_letter(Dresser *d, const BodyFrame *body, bool restart, Mesh *mesh, FrameStats *stats) {
     Literal *l = &d->literal;
-    CrossingCount count = {0};
     literal_frame(l, d->root, body, restart, d->options.split, stats);
     if (mesh) {
         *mesh = l->mesh;
         set_groups(d, l->first_of_patch, mesh);
     }
     double start = clock_seconds();
-    Wrong w = solver_test(&d->solver, body, &l->mesh, &count);
+    Wrong w = tester_test(&d->solver.cloth.tester, body, &l->mesh, NULL);
     stats->test_s += clock_seconds() - start;
+    stats->pairs_all += w.count.pairs_all;
+    stats->pairs_tested += w.count.pairs_tested;
     tell(&w, stats);
-    stats->pairs_all += count.pairs_all;
-    stats->pairs_tested += count.pairs_tested;
 }
 
 void dresser_frame(Dresser *d, const BodyFrame *body, double dt, Tie tie, Mesh *mesh, FrameStats *stats) {
@@ -170,23 +167,16 @@ void dresser_frame(Dresser *d, const BodyFrame *body, double dt, Tie tie, Mesh *
         frame_to_the_letter(d, body, stats->restarted, mesh, stats);
         return;
     }
-    Classification found;
-    split_by_rule(d, body, stats, &found);
-
-    Wrong w = solver_frame(&d->solver, body, d->root, dt, tie, d->options.method == METHOD_GLOBAL, stats,
-                           &found.count);
+    split_by_rule(d, body, stats);
+    Wrong w = solver_frame(&d->solver, body, d->root, dt, tie, d->options.method == METHOD_GLOBAL, stats);
     tell(&w, stats);
 
     start = clock_seconds();
     if (mesh) fill_mesh(d, mesh);
     stats->mesh_s += clock_seconds() - start;
-    stats->cells = leaves_count(&d->solver.leaves);
-    stats->vertices = d->solver.sheet.nvertices;
-    stats->triangles = d->solver.sheet.ntriangles;
-    stats->pairs_all = found.count.pairs_all;
-    stats->pairs_tested = found.count.pairs_tested;
-    stats->hits_before = found.hits;
-    stats->capped |= found.capped;
+    stats->cells = leaves_count(&d->solver.cloth.leaves);
+    stats->vertices = d->solver.cloth.sheet.nvertices;
+    stats->triangles = d->solver.cloth.sheet.ntriangles;
 }
 
 static int literal_leaves(const Literal *l, LeafPatch *out, int capacity) {
@@ -209,7 +199,7 @@ static int literal_borders(const Literal *l, Edge *out) {
 }
 
 static const Leaves *leaves_of(const Dresser *d, LeafKind kind) {
-    return kind == LEAVES_BY_RULE ? &d->by_rule : &d->solver.leaves;
+    return kind == LEAVES_BY_RULE ? &d->by_rule : &d->solver.cloth.leaves;
 }
 
 int dresser_leaves(const Dresser *d, LeafKind kind, LeafPatch *out, int capacity) {
@@ -221,14 +211,14 @@ int dresser_leaves(const Dresser *d, LeafKind kind, LeafPatch *out, int capacity
                 int level = leaf_at(leaves_of(d, kind), p, x, y), shift = depth - level;
                 if (level < 0 || n++ >= capacity) continue;
                 LatticeCell cell = {p, x >> shift, y >> shift};
-                out[n - 1] = (LeafPatch){field_leaf(&d->solver.push.field, d->root, cell, level), p, level};
+                out[n - 1] = (LeafPatch){field_leaf(&d->solver.cloth.push.field, d->root, cell, level), p, level};
             }
     return n;
 }
 
 int dresser_borders(const Dresser *d, LeafKind kind, Edge *out) {
     if (d->options.method == METHOD_PAPER) return literal_borders(&d->literal, out);
-    return sheet_borders(&d->solver.sheet, leaves_of(d, kind), out);
+    return sheet_borders(&d->solver.cloth.sheet, leaves_of(d, kind), out);
 }
 
 DresserInfo dresser_info(const Dresser *d) {

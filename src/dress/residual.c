@@ -15,7 +15,8 @@ static bool reserve_sets(TesterCloth *c, int edges, int triangles, Arena *arena,
     return crossing_reserve(&c->edges, edges, arena, e) && crossing_reserve(&c->triangles, triangles, arena, e);
 }
 
-bool tester_reserve(Tester *t, int edges, int triangles, Arena *arena, Error *e) {
+bool tester_reserve(Tester *t, int edges, int triangles, unsigned own, Arena *arena, Error *e) {
+    *t = (Tester){.own = own};
     t->found = ARENA_NEW(arena, Crossing, FOUND_MAX, e);
     t->hit = ARENA_NEW(arena, TesterHit, HITS_MAX, e);
     t->bad = ARENA_NEW(arena, int, BAD_MAX, e);
@@ -33,19 +34,6 @@ bool tester_reserve(Tester *t, int edges, int triangles, Arena *arena, Error *e)
 static void box(TesterCloth *c, const Vec3 *position) {
     crossing_build_edges(&c->edges, position, c->edge, c->nedges);
     crossing_build_triangles(&c->triangles, position, c->triangle, c->ntriangles);
-}
-
-void tester_build(Tester *t, Vec3 *position, const Edge *edge, int nedges, const Triangle *triangle, int ntriangles,
-                  unsigned own) {
-    t->all.edge = edge;
-    t->all.nedges = nedges;
-    t->all.triangle = triangle;
-    t->all.ntriangles = ntriangles;
-    t->position = position;
-    t->own = own;
-    t->nbad = t->nhits = 0;
-    t->is_stale = false;
-    box(&t->all, position);
 }
 
 static void add_bad(Tester *t, const int *v, int n) {
@@ -97,33 +85,33 @@ static void add_hits(Tester *t, const TesterCloth *c, const BodyFrame *body, int
     }
 }
 
-static void cross(Tester *t, const TesterCloth *c, const BodyFrame *body, unsigned parts, Residual *own,
-                  Residual *other, CrossingCount *count) {
+/* Adds to *w what a cloth crosses. */
+static void cross(Tester *t, const TesterCloth *c, const BodyFrame *body, Wrong *w) {
     Box cloth = crossing_box(&c->edges);
     for (int p = 0; p < body->body->nparts; p++) {
         const BodyPart *part = &body->body->part[p];
-        unsigned bit = part_bit(body, p);
-        if (!(parts & bit)) continue;
         const CrossingSet *edges = body_frame_edges(body, p, cloth), *triangles = body_frame_triangles(body, p, cloth);
         if (!edges || !triangles) { /* nothing to find, but pairs all the same */
-            count->pairs_all += (long long)part->nedges * c->ntriangles + (long long)c->nedges * part->ntriangles;
+            w->count.pairs_all += (long long)part->nedges * c->ntriangles + (long long)c->nedges * part->ntriangles;
             continue;
         }
-        Residual *r = t->own & bit ? own : other;
-        int before = count->hits;
-        add_hits(t, c, body, p, 3, crossing_find(edges, &c->triangles, t->found, FOUND_MAX, count));
-        r->edges += count->hits - before;
-        before = count->hits;
-        add_hits(t, c, body, p, 2, crossing_find(&c->edges, triangles, t->found, FOUND_MAX, count));
-        r->cloth += count->hits - before;
+        Residual *r = t->own & part_bit(body, p) ? &w->own : &w->other;
+        int before = w->count.hits;
+        add_hits(t, c, body, p, 3, crossing_find(edges, &c->triangles, t->found, FOUND_MAX, &w->count));
+        r->edges += w->count.hits - before;
+        before = w->count.hits;
+        add_hits(t, c, body, p, 2, crossing_find(&c->edges, triangles, t->found, FOUND_MAX, &w->count));
+        r->cloth += w->count.hits - before;
     }
 }
 
-void tester_cross(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other,
-                  CrossingCount *count) {
-    if (t->is_stale) box(&t->all, t->position);
-    t->is_stale = false;
-    cross(t, &t->all, body, parts, own, other, count);
+/* Boxes the whole mesh where it is now, and finds what it crosses. */
+static Wrong cross_all(Tester *t, const BodyFrame *body) {
+    Wrong w = {0};
+    t->nbad = t->nhits = 0;
+    box(&t->all, t->position);
+    cross(t, &t->all, body, &w);
+    return w;
 }
 
 /* --- again, for what has moved --- */
@@ -156,27 +144,17 @@ static bool find_some(Tester *t) {
     return true;
 }
 
-/* Counts what those that move cross, where they are now. sign: 1, -1 to take it back. */
-static void count_some(Tester *t, const BodyFrame *body, unsigned parts, int sign, Residual *own, Residual *other,
-                       CrossingCount *count) {
-    Residual mine = {0}, others = {0};
-    CrossingCount c = {0};
+/* Counts what those that move cross, where they are now. sign: 1, -1 to take it back. The pairs of all stay. */
+static void count_some(Tester *t, const BodyFrame *body, int sign, Wrong *w) {
+    Wrong some = {0};
     box(&t->some, t->position);
-    cross(t, &t->some, body, parts, &mine, &others, &c);
-    own->edges += sign * mine.edges;
-    own->cloth += sign * mine.cloth;
-    other->edges += sign * others.edges;
-    other->cloth += sign * others.cloth;
-    count->hits += sign * c.hits;
-    count->pairs_tested += sign * c.pairs_tested;
-}
-
-static void cross_anew(Tester *t, const BodyFrame *body, unsigned parts, Residual *own, Residual *other,
-                       CrossingCount *count) {
-    own->edges = own->cloth = other->edges = other->cloth = 0;
-    *count = (CrossingCount){0};
-    t->nbad = t->nhits = 0;
-    tester_cross(t, body, parts, own, other, count);
+    cross(t, &t->some, body, &some);
+    w->own.edges += sign * some.own.edges;
+    w->own.cloth += sign * some.own.cloth;
+    w->other.edges += sign * some.other.edges;
+    w->other.cloth += sign * some.other.cloth;
+    w->count.hits += sign * some.count.hits;
+    w->count.pairs_tested += sign * some.count.pairs_tested;
 }
 
 /* The hits of the others. */
@@ -189,68 +167,92 @@ static void forget_hits(Tester *t) {
     for (int k = 0; k < n; k++) add_bad(t, t->hit[k].v, t->hit[k].n);
 }
 
-void tester_move(Tester *t, const BodyFrame *body, unsigned parts, const int *vertex, const Vec3 *to, int n,
-                 Residual *own, Residual *other, CrossingCount *count) {
+static void move(Tester *t, const BodyFrame *body, const int *vertex, const Vec3 *to, int n, Wrong *w) {
     for (int k = 0; k < n; k++) t->moves[vertex[k]] = vec_dist(t->position[vertex[k]], to[k]) > 0;
     bool fits = find_some(t);
     if (fits) {
-        count_some(t, body, parts, -1, own, other, count);
+        count_some(t, body, -1, w);
         forget_hits(t);
     }
     for (int k = 0; k < n; k++) {
         t->position[vertex[k]] = to[k];
         t->moves[vertex[k]] = false;
     }
-    t->is_stale = true;
-    if (fits) count_some(t, body, parts, 1, own, other, count);
-    else cross_anew(t, body, parts, own, other, count);
+    if (fits) count_some(t, body, 1, w);
+    else *w = cross_all(t, body);
 }
 
 /* --- inside --- */
 
 /* Boxes in metres round vertices that follow each other, and so lie near each other. */
-static void box_vertices(Tester *t, const Vec3 *position, int n, double to_metres) {
-    for (int v = 0; v < n; v++) {
+static void box_vertices(Tester *t, double to_metres) {
+    for (int v = 0; v < t->nvertices; v++) {
         Box *box = &t->block[v / BLOCK];
         if (v % BLOCK == 0) *box = box_empty();
-        box_add(box, vec_scale(position[v], to_metres));
+        box_add(box, vec_scale(t->position[v], to_metres));
     }
 }
 
-/* The next vertices from *v on, at most LOT, that may be inside of a part, with their points in metres. */
-static int next_suspects(const Tester *t, const BodyFrame *body, int part, const Vec3 *position, int nvertices,
-                         const bool *clear, int *v, int suspect[LOT], Vec3 point[LOT]) {
+/* Vertices that may be inside of a part, and their points in metres. */
+typedef struct {
+    int n, vertex[LOT];
+    Vec3 point[LOT];
+} Suspects;
+
+/* The next ones from *v on, at most LOT; false where there are none left. */
+static bool next_suspects(const Tester *t, const BodyFrame *body, int part, const bool *clear, int *v, Suspects *out) {
     double to_metres = 1 / body->unit;
-    int n = 0;
-    for (; *v < nvertices && n < LOT; ++*v) {
+    out->n = 0;
+    for (; *v < t->nvertices && out->n < LOT; ++*v) {
         if (*v % BLOCK == 0 && !box_touches(t->block[*v / BLOCK], body->box[part])) {
             *v += BLOCK - 1;
             continue;
         }
         if (clear && clear[*v]) continue;
-        suspect[n] = *v;
-        point[n] = vec_scale(position[*v], to_metres);
-        n += !body_frame_far(body, part, point[n], 0);
+        Vec3 x = vec_scale(t->position[*v], to_metres);
+        out->vertex[out->n] = *v;
+        out->point[out->n] = x;
+        out->n += !body_frame_far(body, part, x, 0);
     }
-    return n;
+    return out->n > 0;
 }
 
-void tester_inside(Tester *t, const BodyFrame *body, const Vec3 *position, int nvertices, const bool *clear,
-                   Residual *own, Residual *other) {
-    int suspect[LOT];
-    Vec3 point[LOT];
+/* Counts the vertices inside parts anew, and appends them to the bad. */
+static void find_inside(Tester *t, const BodyFrame *body, const bool *clear, Wrong *w) {
+    Suspects of;
     double distance[LOT];
-    box_vertices(t, position, nvertices, 1 / body->unit);
+    w->own.inside = w->other.inside = 0;
+    w->own.deepest = w->other.deepest = 0;
+    box_vertices(t, 1 / body->unit);
     for (int p = 0; p < body->body->nparts; p++) {
-        Residual *r = t->own & part_bit(body, p) ? own : other;
-        for (int v = 0, n; (n = next_suspects(t, body, p, position, nvertices, clear, &v, suspect, point)) > 0;) {
-            body_frame_distances(body, p, point, n, 0, distance);
-            for (int k = 0; k < n; k++) {
+        Residual *r = t->own & part_bit(body, p) ? &w->own : &w->other;
+        for (int v = 0; next_suspects(t, body, p, clear, &v, &of);) {
+            body_frame_distances(body, p, of.point, of.n, 0, distance);
+            for (int k = 0; k < of.n; k++) {
                 if (distance[k] >= 0) continue;
                 r->inside++;
                 r->deepest = fmax(r->deepest, -distance[k]);
-                add_bad(t, &suspect[k], 1);
+                add_bad(t, &of.vertex[k], 1);
             }
         }
     }
+}
+
+Wrong tester_test(Tester *t, const BodyFrame *body, const Mesh *mesh, const bool *clear) {
+    t->all.edge = mesh->edge;
+    t->all.nedges = mesh->nedges;
+    t->all.triangle = mesh->triangle;
+    t->all.ntriangles = mesh->ntriangles;
+    t->position = mesh->position;
+    t->nvertices = mesh->nvertices;
+    Wrong w = cross_all(t, body);
+    find_inside(t, body, clear, &w);
+    return w;
+}
+
+Wrong tester_again(Tester *t, const BodyFrame *body, const int *vertex, const Vec3 *to, int n, const bool *clear,
+                   Wrong w) {
+    move(t, body, vertex, to, n, &w);
+    find_inside(t, body, clear, &w);
+    return w;
 }

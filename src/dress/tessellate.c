@@ -152,6 +152,15 @@ static int by_vertices(const void *a, const void *b) {
     return (p->v[c] > q->v[c]) - (p->v[c] < q->v[c]);
 }
 
+Mesh sheet_mesh(const Sheet *s, Vec3 *position) {
+    return (Mesh){.nvertices = s->nvertices,
+                  .ntriangles = s->ntriangles,
+                  .nedges = s->nedges,
+                  .position = position,
+                  .triangle = s->triangle,
+                  .edge = s->edge};
+}
+
 /* Neighbours list a border once each: twice in all, however different their levels. */
 int sheet_borders(const Sheet *s, const Leaves *leaves, Edge *out) {
     const Lattice *l = s->lattice;

@@ -1,0 +1,167 @@
+/* What crosses a part, or lies in it, is asked for a little more distance than all others, and again, until nothing
+   does. Most rounds move just those vertices and test what hangs on them; every third gives the surface as a whole
+   the chance to follow. */
+#include "dress/attempt.h"
+
+#include <limits.h>
+
+#include "base/clock.h"
+#include "geometry/flat.h"
+
+/* Rounds of asking for more distance; every third time the whole surface gives way, not only the
+   vertices that were asked. */
+enum { ROUNDS_MAX = 9, SOLVE_EVERY = 3 };
+enum { MANY = 4 }; /* where more than this part of the vertices has moved, the whole mesh is tested */
+static const double HEADWAY = 0.7;  /* of the bad vertices may be left after a solution, or it is given up */
+static const double RAISE = 0.002;  /* metres of clearance added in a round where something crosses, on 1.70 m */
+enum { FLAT_ROUNDS = 4, FLAT_MOST = 256 };
+static const double FLAT = 5e-6;    /* metres: no facet is left less high than that */
+
+bool cloth_reserve(Cloth *c, const Fit *fit, const Lattice *lattice, Arena *arena, Error *e) {
+    *c = (Cloth){.fit = fit};
+    int triangles = 2 * fit->npatches * lattice->side * lattice->side, places = lattice->nplaces;
+    if (!leaves_reserve(&c->leaves, lattice, arena, e) || !sheet_reserve(&c->sheet, lattice, arena, e) ||
+        !push_reserve(&c->push, lattice, arena, e) || !settle_reserve(&c->settler, lattice, arena, e) ||
+        !tester_reserve(&c->tester, 3 * triangles, triangles, fit->collide, arena, e))
+        return false;
+    c->position = ARENA_NEW(arena, Vec3, places, e);
+    c->moved = ARENA_NEW(arena, Vec3, places, e);
+    c->flag = ARENA_NEW(arena, bool, places, e);
+    return c->position && c->moved && c->flag;
+}
+
+static void add_pairs(FrameStats *stats, const Wrong *w) {
+    stats->pairs_all += w->count.pairs_all;
+    stats->pairs_tested += w->count.pairs_tested;
+}
+
+/* Vertices that are known to be outside of all parts need no test for that. */
+static const bool *find_clear(Cloth *c) {
+    push_clear(&c->push, &c->sheet, c->flag);
+    return c->flag;
+}
+
+Wrong attempt_test(Cloth *c, const BodyFrame *body, FrameStats *stats) {
+    mesh_snap_points(body->vectors, c->push.point, body->unit, c->sheet.nvertices, c->position);
+    Mesh mesh = sheet_mesh(&c->sheet, c->position);
+    Wrong w = tester_test(&c->tester, body, &mesh, find_clear(c));
+    add_pairs(stats, &w);
+    return w;
+}
+
+/* The same, where the last test has found w, and since then only raised vertices have moved. */
+static Wrong test_raised(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *stats) {
+    int n = c->settler.nraised;
+    const int *raised = c->settler.raised;
+    for (int k = 0; k < n; k++) c->moved[k] = mesh_snap_point(vec_scale(c->push.point[raised[k]], body->unit));
+    w = tester_again(&c->tester, body, raised, c->moved, n, find_clear(c), w);
+    add_pairs(stats, &w);
+    return w;
+}
+
+/* The surface as a whole, then what that leaves of every vertex. */
+static void push_all(Cloth *c, const BodyFrame *body, PushResult *result) {
+    push_solve(&c->push, body, &c->sheet, result);
+    settle_all(&c->settler, &c->push, body, &c->sheet, &result->capped);
+}
+
+/* Asks for more distance at all bad vertices; false where they have as much as there is. */
+static bool raise_bad(Cloth *c, int round) {
+    bool raised = false;
+    for (int k = 0; k < c->tester.nbad; k++)
+        raised |= settle_raise(&c->settler, &c->push, c->tester.bad[k], RAISE, RAISE * (round + 1));
+    return raised;
+}
+
+/* Pushes off what still crosses a part, and gives the raised vertices, or all, their distance. */
+static void push_off(Cloth *c, const BodyFrame *body, bool all, PushResult *result) {
+    settle_mark(&c->settler, &c->push, &c->sheet);
+    for (int k = 0; k < c->tester.nhits; k++)
+        settle_hit(&c->settler, &c->push, body, &c->sheet, &c->tester.hit[k]);
+    if (all) push_all(c, body, result);
+    else settle_raised(&c->settler, &c->push, body, &c->sheet, &result->capped);
+}
+
+/* What a limb from outside is left with is not mended at the price of a part that the garment is worn over: a round
+   that brings such a part to show is taken back. */
+Outcome attempt_push(Cloth *c, const BodyFrame *body, FrameStats *stats) {
+    double start = clock_seconds();
+    int before = INT_MAX;
+    bool all_moved = true, was_clean = false;
+    Outcome out = {.push = {0}};
+    push_start(&c->push, c->root, &c->leaves, &c->sheet);
+    settle_start(&c->settler);
+    push_all(c, body, &out.push);
+    for (int round = 0;; round++) {
+        stats->push_s += clock_lap(&start);
+        out.wrong = all_moved ? attempt_test(c, body, stats) : test_raised(c, body, out.wrong, stats);
+        bool is_clean = residual_total(&out.wrong.own) == 0, solve = round % SOLVE_EVERY == SOLVE_EVERY - 1;
+        bool is_spoilt = was_clean && !is_clean && settle_back(&c->settler, &c->push, &c->sheet);
+        if (is_spoilt) out.wrong = test_raised(c, body, out.wrong, stats);
+        bool raised = !is_spoilt && raise_bad(c, round);
+        stats->test_s += clock_lap(&start);
+        bool hopeless = solve && (is_clean || c->tester.nbad > HEADWAY * before);
+        if (!raised || round == ROUNDS_MAX || hopeless) break; /* nothing has moved since the test */
+        if (solve) before = c->tester.nbad;
+        all_moved = solve || c->settler.nraised > c->sheet.nvertices / MANY;
+        was_clean = is_clean;
+        push_off(c, body, solve, &out.push);
+    }
+    push_measure(&c->push, body, &c->sheet, &out.push);
+    return out;
+}
+
+Outcome attempt_rest(Cloth *c, const BodyFrame *body, FrameStats *stats) {
+    double start = clock_seconds();
+    push_start(&c->push, c->root, &c->leaves, &c->sheet);
+    push_rest(&c->push, &c->sheet);
+    Outcome out = {.wrong = attempt_test(c, body, stats)};
+    stats->test_s += clock_lap(&start);
+    return out;
+}
+
+/* Facets that fold over pass a moment at which text would leave nothing of them, or a vertex on the side of
+   another: there a corner steps aside by some hundredths of a millimetre. */
+Wrong attempt_raise_flat(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *stats) {
+    double start = clock_seconds();
+    for (int round = 0; round < FLAT_ROUNDS; round++) {
+        int aside[FLAT_MOST], n = flat_find(c->position, c->sheet.triangle, c->sheet.ntriangles, FLAT * body->unit,
+                                            round, aside, c->moved, FLAT_MOST);
+        if (n == 0) break;
+        for (int k = 0; k < n; k++) c->moved[k] = mesh_snap_point(c->moved[k]);
+        w = tester_again(&c->tester, body, aside, c->moved, n, NULL, w);
+        add_pairs(stats, &w);
+    }
+    stats->test_s += clock_lap(&start);
+    return w;
+}
+
+/* Does the body leave cloth that is worn over `worn` no room before a part from outside, at a point of either? */
+static bool has_no_room(const BodyFrame *body, unsigned worn, int part, Vec3 at, double needed) {
+    BodyPoint x;
+    body_point_move(&x, at);
+    double left = needed - body_point_unpressed(body, part, &x, needed);
+    for (int k = 0; k < body->body->nparts; k++)
+        if (worn & part_bit(body, k) && yield_concerns(body->body->part[part].role, body->body->part[k].role) &&
+            body_point_unpressed(body, k, &x, left) < left)
+            return true;
+    return false;
+}
+
+int attempt_pinched(Cloth *c, const BodyFrame *body) {
+    int pinched = 0;
+    bool *is_counted = c->flag;
+    for (int v = 0; v < c->sheet.nvertices; v++) is_counted[v] = false;
+    for (int k = 0; k < c->tester.nhits; k++) {
+        const TesterHit *hit = &c->tester.hit[k];
+        int v = tester_hit_vertex(hit);
+        Vec3 x = {0, 0, 0};
+        if (c->fit->collide & part_bit(body, hit->part)) continue;
+        for (int i = 0; i < hit->n; i++) x = vec_mad(x, c->position[hit->v[i]], hit->weight[i] / body->unit);
+        unsigned worn = c->push.lattice->collide[c->sheet.place[v]];
+        if (is_counted[v] || !has_no_room(body, worn, hit->part, x, 2 * PUSH_MARGIN * c->push.field.scale)) continue;
+        is_counted[v] = true;
+        pinched++;
+    }
+    return pinched;
+}
