@@ -5,6 +5,16 @@
 
 #include "app/settings.h"
 
+/* A word after `kitsuke`. */
+typedef struct {
+    const char *name;
+    CommandBit bit;
+    const char *summary;  /* one line, lower case */
+    const char *operands; /* behind the name in the usage line */
+    const char *example;  /* lines that can be typed as they stand */
+    ErrorKind (*run)(const Settings *settings, Error *e);
+} Command;
+
 ErrorKind cmd_dress(const Settings *settings, Error *e);
 ErrorKind cmd_compare(const Settings *settings, Error *e);
 ErrorKind cmd_inspect(const Settings *settings, Error *e);

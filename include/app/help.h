@@ -2,7 +2,7 @@
 #ifndef APP_HELP_H
 #define APP_HELP_H
 
-#include "app/options.h"
+#include "app/commands.h"
 
 /* The page of one command: usage, example, options by group with range and default. */
 void help_command(const Command *command, FILE *out);

@@ -12,7 +12,7 @@
 #ifndef APP_JOBFILE_H
 #define APP_JOBFILE_H
 
-#include "app/options.h"
+#include "app/commands.h"
 #include "base/text.h"
 
 /* Puts what the file says into `out`, which holds the defaults. ERR_USAGE with file, line and

@@ -126,10 +126,12 @@ enum { OPTIONS_MAX = 96 };
 /* Ends with a NULL name. */
 extern const Option settings_table[];
 
-/* The option of that name (length bytes) or letter that one of `commands` takes; else one of
-   another command; else NULL. */
-const Option *settings_find(const char *name, size_t length, unsigned commands);
+/* The option of that name or letter that one of `commands` takes; else one of another command; else NULL. */
+const Option *settings_find(const char *name, unsigned commands);
 const Option *settings_find_letter(char letter, unsigned commands);
+
+/* The same for a name that may also be no-NAME, which sets *no: a switch that is taken back. */
+const Option *settings_find_switch(const char *name, unsigned commands, bool *no);
 
 /* The name nearest to a mistyped one, or NULL. */
 const char *settings_nearest(const char *name, unsigned commands);

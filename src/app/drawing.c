@@ -81,7 +81,7 @@ static bool read_cells(const Settings *s, Drawing *d, Error *e) {
 
 /* Each part between commas is what --frames of the other commands takes. */
 static bool read_spans(const char *text, Arena *arena, Drawing *d, Error *e) {
-    const Option *option = settings_find("frames", strlen("frames"), COMMAND_DRESS);
+    const Option *option = settings_find("frames", COMMAND_DRESS);
     for (const char *at = text; at;) {
         size_t n = strcspn(at, ",");
         Settings one = {0};

@@ -75,7 +75,7 @@ static bool read_line(const Reader *r, const Line *line) {
     Error why = {0};
     int n = line->length[0] < (int)sizeof key ? line->length[0] : (int)sizeof key - 1;
     snprintf(key, sizeof key, "%.*s", n, line->word[0]);
-    const Option *option = options_find(key, r->command->bit, &no);
+    const Option *option = settings_find_switch(key, r->command->bit, &no);
     if (!option || !(option->commands & r->command->bit) || line->length[0] != n) {
         const char *near = option ? NULL : settings_nearest(key, r->command->bit);
         if (option) snprintf(text, sizeof text, "'%s' has no option '%s'", r->command->name, key);

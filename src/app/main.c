@@ -6,6 +6,7 @@
 #include "app/commands.h"
 #include "app/help.h"
 #include "app/jobfile.h"
+#include "app/options.h"
 
 static const Command commands[] = {
     {.name = "dress", .bit = COMMAND_DRESS, .run = cmd_dress,

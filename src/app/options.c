@@ -22,19 +22,6 @@ typedef struct {
 /* Pairs that contradict each other. */
 static const char *const conflicts[][2] = {{"quiet", "verbose"}};
 
-static const Option *find_named(const char *name, unsigned commands) {
-    return settings_find(name, strlen(name), commands);
-}
-
-const Option *options_find(const char *name, unsigned commands, bool *no) {
-    const Option *option = find_named(name, commands);
-    *no = false;
-    if (option || strncmp(name, "no-", 3) != 0) return option;
-    option = find_named(name + 3, commands);
-    *no = true;
-    return option && option->kind == KIND_FLAG ? option : NULL;
-}
-
 static bool unknown_option(const Parser *p, const char *word, const char *name, Error *e) {
     const char *near = settings_nearest(name, p->command->bit);
     if (near) return error_set(e, ERR_USAGE, "unknown option '%s'; did you mean '--%s'?", word, near);
@@ -57,7 +44,7 @@ static bool put(Parser *p, const Option *option, const char *value, Error *e) {
     for (size_t i = 0; i < sizeof conflicts / sizeof conflicts[0]; i++)
         for (int side = 0; side < 2; side++) {
             if (strcmp(conflicts[i][side], option->name) != 0) continue;
-            const Option *other = find_named(conflicts[i][!side], p->command->bit);
+            const Option *other = settings_find(conflicts[i][!side], p->command->bit);
             if (!p->given[other - settings_table]) *(bool *)((char *)p->settings + other->field) = false;
         }
     *given = true;
@@ -78,7 +65,7 @@ static bool parse_long(Parser *p, const char *word, Error *e) {
     size_t length = strcspn(word + 2, "=");
     const char *value = word[2 + length] ? word + 2 + length + 1 : NULL;
     snprintf(name, sizeof name, "%.*s", (int)(length < 63 ? length : 63), word + 2);
-    const Option *option = options_find(name, p->command->bit, &no);
+    const Option *option = settings_find_switch(name, p->command->bit, &no);
     if (!option || length >= sizeof name || (no && value)) return unknown_option(p, word, name, e);
     if (!(option->commands & p->command->bit)) return foreign_option(p, option, e);
     if (option->kind == KIND_FLAG && !value) value = no ? "no" : "yes";
@@ -103,8 +90,8 @@ static bool parse_letters(Parser *p, const char *word, Error *e) {
 
 static bool check_conflicts(const Parser *p, Error *e) {
     for (size_t i = 0; i < sizeof conflicts / sizeof conflicts[0]; i++) {
-        const Option *a = settings_find(conflicts[i][0], strlen(conflicts[i][0]), p->command->bit);
-        const Option *b = settings_find(conflicts[i][1], strlen(conflicts[i][1]), p->command->bit);
+        const Option *a = settings_find(conflicts[i][0], p->command->bit);
+        const Option *b = settings_find(conflicts[i][1], p->command->bit);
         if (p->given[a - settings_table] && p->given[b - settings_table])
             return error_set(e, ERR_USAGE, "'--%s' and '--%s' contradict each other", a->name, b->name);
     }
@@ -117,8 +104,7 @@ static bool check_conflicts(const Parser *p, Error *e) {
 }
 
 static bool put_operand(Parser *p, const char *word, Error *e) {
-    static const char motion[] = "motion"; /* the option that operands are short for */
-    return put(p, settings_find(motion, sizeof motion - 1, COMMAND_ALL), word, e);
+    return put(p, settings_find("motion", COMMAND_ALL), word, e); /* what operands are short for */
 }
 
 /* All words, on top of what the settings hold already. */
