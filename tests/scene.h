@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "dress/bodypose.h"
 #include "dress/frame.h"
 #include "tap.h"
 

@@ -3,6 +3,7 @@
 #define APP_WEARER_H
 
 #include "app/wardrobe.h"
+#include "dress/bodypose.h"
 #include "geometry/facing.h"
 
 typedef struct {

@@ -1,4 +1,4 @@
-/* The body of one frame, posed once and shared by all garments. */
+/* The body of one frame, posed once (dress/bodypose) and shared by all garments. */
 #ifndef DRESS_BODYFRAME_H
 #define DRESS_BODYFRAME_H
 
@@ -41,12 +41,6 @@ typedef struct {
 } BodyFrame;
 
 MUST_CHECK bool body_frame_init(BodyFrame *f, const Body *body, double unit, Arena *arena, Error *e);
-
-/* Poses the body and lets its parts give way to each other. Allocates nothing. */
-void body_frame_pose(BodyFrame *f, const Pose *pose);
-
-/* Fills f->normal, which only those need who write the body. */
-void body_frame_normals(const BodyFrame *f);
 
 /* The normal at a vertex of a part's skin, where nothing presses on it. */
 static inline Vec3 body_frame_rest_normal(const BodyFrame *f, const BodyPart *part, int vertex) {

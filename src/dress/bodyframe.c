@@ -1,9 +1,7 @@
-/* Posing the body: its parts to the world, each lets the others press on it (dress/flesh), and what is then
-   its skin goes to the precision of the text. */
+/* What is asked of a posed body: distances from its parts, each with what the others press on it (dress/yield), and
+   boxes over its skin. Most questions end at a box. */
 #include "dress/bodyframe.h"
 
-#include "base/clock.h"
-#include "dress/flesh.h"
 #include "geometry/boxtree.h"
 
 enum { LOT = 64 }; /* points that are asked about at a time */
@@ -23,24 +21,6 @@ bool body_frame_init(BodyFrame *f, const Body *body, double unit, Arena *arena, 
             !crossing_reserve(&f->boxes->triangles[p], body->part[p].ntriangles, arena, e))
             return false;
     return true;
-}
-
-/* Facets are chords of the skin, which bulges out of their box by less than this share of it. */
-static const double BULGE = 0.02;
-
-static void find_box(BodyFrame *f, int part) {
-    const BodyPart *p = &f->body->part[part];
-    Box b = box_empty(), *blocks = body_frame_blocks(f, part);
-    for (int first = 0; first < p->nvertices; first += BODY_BLOCK) {
-        Box *block = &blocks[first / BODY_BLOCK];
-        *block = box_empty();
-        for (int v = first; v < p->nvertices && v < first + BODY_BLOCK; v++)
-            box_add(block, f->position[p->first_vertex + v]);
-        box_add(&b, block->low);
-        box_add(&b, block->high);
-    }
-    Vec3 room = vec_scale(vec(1, 1, 1), BULGE * vec_dist(b.low, b.high));
-    f->box[part] = f->skin[part] = (Box){vec_sub(b.low, room), vec_add(b.high, room)};
 }
 
 static double distance_in_box(const BodyFrame *f, int part, BodyPoint *p, double far, Vec3 *normal) {
@@ -149,32 +129,6 @@ bool body_frame_any_inside(const BodyFrame *f, unsigned parts, const Vec3 *p, in
             if (any_inside_part(f, k, p + i, n - i < LOT ? n - i : LOT)) return true;
     }
     return false;
-}
-
-void body_frame_normals(const BodyFrame *f) {
-    for (int p = 0; p < f->body->nparts; p++) {
-        const BodyPart *part = &f->body->part[p];
-        for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++)
-            if (f->give[v].by <= 0) f->normal[v] = body_frame_rest_normal(f, part, v);
-    }
-}
-
-void body_frame_pose(BodyFrame *f, const Pose *pose) {
-    double start = clock_seconds();
-    const Body *b = f->body;
-    f->pose = *pose;
-    body_pose(b, pose, f->position, NULL);
-    for (int p = 0; p < b->nparts; p++) {
-        const BodyPart *part = &b->part[p];
-        Rigid to_world = rigid_mul(pose->bone[part->role], part->frame);
-        f->to_world[p] = to_world.r;
-        f->to_part[p] = rigid_inverse(to_world);
-        find_box(f, p);
-    }
-    flesh_press(f);
-    mesh_snap_points(f->vectors, f->position, f->unit, b->skin.nvertices, f->position);
-    f->boxes->made = 0;
-    f->seconds = clock_seconds() - start;
 }
 
 /* The boxes of a part, made where they are not yet; NULL where nobody needs them. */
