@@ -3,14 +3,14 @@
 
 #include <stdlib.h>
 
-#include "dress/room.h"
+#include "dress/padding.h"
 
 #include "tap.h"
 
 static Arena arena;
 
 /* Everything that a search needs, for a body with cloth of an even thickness all over. */
-typedef struct { Figure figure; Body body; Cloth cloth; double off; } Model;
+typedef struct { Figure figure; Body body; Padding padding; double off; } Model;
 
 static Model model(double size, double off) {
     Model m = {.figure = figure_reference(), .off = off * size};
@@ -19,7 +19,7 @@ static Model model(double size, double off) {
     for (int r = 0; r < ROLE_COUNT; r++) {
         m.figure.start[r] = vec_scale(m.figure.start[r], size);
         m.figure.end[r] = vec_scale(m.figure.end[r], size);
-        for (int k = 0; k < CLOTH_PLACES; k++) m.cloth.side[r][k] = m.cloth.front[r][k] = 0.5 * m.off;
+        for (int k = 0; k < PADDING_PLACES; k++) m.padding.side[r][k] = m.padding.front[r][k] = 0.5 * m.off;
     }
     if (!body_fit(body_default(), &m.figure, 16, &arena, &m.body, &e)) exit(1);
     return m;
@@ -98,7 +98,7 @@ static double largest(const ArmTurn turn[ARMS]) {
 static Pose relaxed(const Model *m, const Pose *pose, double less) {
     ArmTurn turn[ARMS];
     Pose out = *pose;
-    relax_find(&m->figure, &m->body, &m->cloth, pose, turn);
+    relax_find(&m->figure, &m->body, &m->padding, pose, turn);
     double share = 1 - less / fmax(largest(turn), 1e-9);
     for (int i = 0; i < ARMS * TURNS; i++) turn[i / TURNS].angle[i % TURNS] *= share;
     relax_apply(&m->figure, turn, &out);
@@ -115,15 +115,15 @@ static void test_enough(void) {
             for (double bend = 0; bend <= 60; bend += 20) {
                 Pose pose = both_at(&m.figure, swing, out, bend, 0);
                 ArmTurn turn[ARMS], rest[ARMS];
-                relax_find(&m.figure, &m.body, &m.cloth, &pose, turn);
+                relax_find(&m.figure, &m.body, &m.padding, &pose, turn);
                 Pose free = relaxed(&m, &pose, 0), near = relaxed(&m, &pose, 1);
-                relax_find(&m.figure, &m.body, &m.cloth, &free, rest);
+                relax_find(&m.figure, &m.body, &m.padding, &free, rest);
                 again = fmax(again, largest(rest));
                 worst = fmin(worst, room_in(&m, &free));
                 n++;
                 if (largest(turn) < 1) continue;
                 turned++;
-                relax_find(&m.figure, &m.body, &m.cloth, &near, rest);
+                relax_find(&m.figure, &m.body, &m.padding, &near, rest);
                 least = fmin(least, largest(rest));
             }
     OK(turned > n / 4 && worst > m.off - 0.004, "%d poses, %d with too little room: %.1f cm are left for cloth of %.1f",
@@ -136,9 +136,9 @@ static void test_nothing(void) {
     Model m = model(1, 0.03), bare = model(1, 0);
     ArmTurn turn[ARMS];
     Pose rest = figure_rest_pose(), hanging = both_at(&m.figure, 0, 0, 0, 0);
-    relax_find(&m.figure, &m.body, &m.cloth, &rest, turn);
+    relax_find(&m.figure, &m.body, &m.padding, &rest, turn);
     OK(largest(turn) == 0, "arms that are free stay");
-    relax_find(&m.figure, &m.body, &bare.cloth, &hanging, turn);
+    relax_find(&m.figure, &m.body, &bare.padding, &hanging, turn);
     OK(largest(turn) == 0, "nobody who is bare needs room");
     static const struct { ArmPose at; const char *what; } kept[] = {
         {{25, 10, 100, 75}, "folded arms"}, {{45, 8, 30, 25}, "hands in front of the belly"},
@@ -146,14 +146,14 @@ static void test_nothing(void) {
     for (size_t i = 0; i < sizeof kept / sizeof kept[0]; i++) {
         ArmPose at[ARMS] = {kept[i].at, kept[i].at};
         Pose pose = arms_at(&m.figure, at);
-        relax_find(&m.figure, &m.body, &m.cloth, &pose, turn);
+        relax_find(&m.figure, &m.body, &m.padding, &pose, turn);
         OK(largest(turn) < 6, "%s stay nearly as they are (%.1f degrees)", kept[i].what, largest(turn));
     }
     Pose lap = both_at(&m.figure, 15, 8, 45, 35);
     for (int leg = 0; leg < 2; leg++)
         point_bone(&m.figure, &lap, leg ? ROLE_RIGHT_THIGH : ROLE_LEFT_THIGH,
                    m.figure.start[leg ? ROLE_RIGHT_THIGH : ROLE_LEFT_THIGH], vec(0, 0, 1));
-    relax_find(&m.figure, &m.body, &m.cloth, &lap, turn);
+    relax_find(&m.figure, &m.body, &m.padding, &lap, turn);
     OK(turn[0].angle[TURN_FORWARD] > 1 && turn[0].angle[TURN_FORWARD] > 2 * turn[0].angle[TURN_OUT],
        "hands in the lap go forwards (%.1f degrees, %.1f out)", turn[0].angle[TURN_FORWARD],
        turn[0].angle[TURN_OUT]);
@@ -174,7 +174,7 @@ static void test_continuous(void) {
             double swing = 0.1 * k - 35;
             Pose pose = both_at(&m.figure, swing, 10 - 3.0 * path, 15.0 * path + swing, 2.0 * path);
             ArmTurn turn[ARMS];
-            relax_find(&m.figure, &m.body, &m.cloth, &pose, turn);
+            relax_find(&m.figure, &m.body, &m.padding, &pose, turn);
             for (int i = 0; i < TURNS && k; i++) widest = fmax(widest, fabs(turn[0].angle[i] - before.angle[i]));
             before = turn[0];
             most = fmax(most, largest(turn));
@@ -197,18 +197,18 @@ static void test_invariant(void) {
     Rigid world = {mat_mul(mat_axis_angle(vec(0, 1, 0), 2), mat_axis_angle(vec(1, 0, 0), 1)), {30, -2, 7}};
     for (int r = 0; r < ROLE_COUNT; r++) moved.bone[r] = rigid_mul(world, pose.bone[r]);
     ArmTurn a[ARMS], b[ARMS], c[ARMS], d[ARMS];
-    relax_find(&m.figure, &m.body, &m.cloth, &pose, a);
-    relax_find(&m.figure, &m.body, &m.cloth, &moved, b);
-    relax_find(&m.figure, &m.body, &m.cloth, &mirrored, c);
-    relax_find(&child.figure, &child.body, &child.cloth, &small, d);
+    relax_find(&m.figure, &m.body, &m.padding, &pose, a);
+    relax_find(&m.figure, &m.body, &m.padding, &moved, b);
+    relax_find(&m.figure, &m.body, &m.padding, &mirrored, c);
+    relax_find(&child.figure, &child.body, &child.padding, &small, d);
     OK(a[0].angle[TURN_OUT] > 1 && a[1].angle[TURN_OUT] > 1 &&
            difference(&a[0], &b[0]) + difference(&a[1], &b[1]) < 1e-6,
        "the same anywhere in the world");
     OK(difference(&a[0], &c[1]) + difference(&a[1], &c[0]) < 1e-6, "the same in a mirror");
     OK(difference(&a[0], &d[0]) + difference(&a[1], &d[1]) < 0.01, "the same for a child");
-    m.cloth.is_tube = true;
-    relax_find(&m.figure, &m.body, &m.cloth, &pose, b);
-    relax_find(&m.figure, &m.body, &m.cloth, &mirrored, c);
+    m.padding.is_tube = true;
+    relax_find(&m.figure, &m.body, &m.padding, &pose, b);
+    relax_find(&m.figure, &m.body, &m.padding, &mirrored, c);
     OK(difference(&b[0], &c[1]) + difference(&b[1], &c[0]) < 1e-6, "in a mirror also with a skirt");
     relax_apply(&m.figure, a, &pose);
     relax_apply(&m.figure, a, &moved);
@@ -237,19 +237,19 @@ static void test_apply(void) {
     OK(right.x < 0 && fabs(right.y) + fabs(right.z) < 1e-9, "outwards ends where the arm points straight to the side");
 }
 
-/* The cloth of real garments, as it is measured. */
-static void test_room(void) {
+/* How far real garments stand off. */
+static void test_padding(void) {
     Model m = model(1, 0);
     Error e = {0};
     Garment *skirt = ARENA_NEW(&arena, Garment, 1, &e), *shirt = ARENA_NEW(&arena, Garment, 1, &e);
-    Cloth skirts = {.is_tube = false}, shirts = skirts;
+    Padding skirts = {.is_tube = false}, shirts = skirts;
     bool good = skirt && shirt && garment_read("garments/skirt.garment", &arena, skirt, &e) &&
                 garment_read("garments/tshirt.garment", &arena, shirt, &e) &&
-                room_add(skirt, &m.figure, &m.body, &arena, &skirts, &e) &&
-                room_add(shirt, &m.figure, &m.body, &arena, &shirts, &e);
+                padding_add(skirt, &m.figure, &m.body, &arena, &skirts, &e) &&
+                padding_add(shirt, &m.figure, &m.body, &arena, &shirts, &e);
     OK(good && skirts.is_tube && !shirts.is_tube, "a skirt is a tube, a T-shirt is none");
     double uneven = 0, thigh = 0, sleeve = 0, bare = 0;
-    for (int k = 0; k < CLOTH_PLACES; k++) {
+    for (int k = 0; k < PADDING_PLACES; k++) {
         for (int r = ROLE_LEFT_CLAVICLE; r <= ROLE_LEFT_HAND; r++)
             uneven = fmax(uneven, fabs(shirts.side[r][k] - shirts.side[r + ROLE_RIGHT_HAND - ROLE_LEFT_HAND][k]));
         for (int r = ROLE_LEFT_THIGH; r <= ROLE_LEFT_SHIN; r++) {
@@ -267,7 +267,7 @@ static void test_room(void) {
 }
 
 int main(void) {
-    test_room();
+    test_padding();
     test_enough();
     test_nothing();
     test_continuous();

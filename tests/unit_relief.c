@@ -9,7 +9,7 @@ enum { FRAMES_MOST = 200 };
 typedef struct {
     Rig rig;
     Body body;
-    Cloth cloth;
+    Padding padding;
     int count;
     double need[FRAMES_MOST][ARMS * TURNS], turn[FRAMES_MOST][ARMS * TURNS];
 } Scene;
@@ -17,7 +17,7 @@ typedef struct {
 static Relief *open_relief(Scene *s) {
     Relief *r;
     Error e = {0};
-    if (relief_open(&s->rig.motion, &s->rig.figure, &s->body, &s->cloth, false, &s->rig.arena, &r, &e)) return r;
+    if (relief_open(&s->rig.motion, &s->rig.figure, &s->body, &s->padding, false, &s->rig.arena, &r, &e)) return r;
     printf("# %s\n", e.text);
     exit(1);
 }
@@ -33,14 +33,14 @@ static void open_scene(Scene *s) {
         !body_fit(body_default(), &s->rig.figure, 16, &s->rig.arena, &s->body, &e))
         exit(1);
     for (int r = 0; r < ROLE_COUNT; r++)
-        for (int k = 0; k < CLOTH_PLACES; k++)
-            s->cloth.side[r][k] = r == ROLE_LEFT_THIGH || r == ROLE_PELVIS ? 0.12 : 0;
+        for (int k = 0; k < PADDING_PLACES; k++)
+            s->padding.side[r][k] = r == ROLE_LEFT_THIGH || r == ROLE_PELVIS ? 0.12 : 0;
     Relief *r = open_relief(s);
     s->count = s->rig.motion.nframes;
     for (int f = 0; f < s->count && f < FRAMES_MOST; f++) {
         ArmTurn turn[ARMS];
         Pose pose = rig_pose(&s->rig, f);
-        relax_find(&s->rig.figure, &s->body, &s->cloth, &pose, turn);
+        relax_find(&s->rig.figure, &s->body, &s->padding, &pose, turn);
         copy(turn, s->need[f]);
         if (!relief_at(r, f, turn, &e)) exit(1);
         copy(turn, s->turn[f]);

@@ -5,7 +5,7 @@
 #include "app/chunks.h"
 #include "app/press.h"
 #include "app/wearer.h"
-#include "dress/room.h"
+#include "dress/padding.h"
 
 /* A frame, and the body posed for it. Motion, figure and body are the job's. */
 typedef struct {
@@ -20,7 +20,7 @@ typedef struct {
     Pen pen;
     Stance stance[2];    /* of the frame that is dressed, and of the next */
     Dresser **dresser;   /* one for each garment */
-    Cloth cloth;         /* the room that these need */
+    Padding padding;     /* how far these stand off */
 } Lane;
 
 /* What a chunk gives, in the order of its frames. Arrays by the job. */

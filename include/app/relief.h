@@ -7,9 +7,9 @@
 
 typedef struct Relief Relief;
 
-/* lone_first: the first frame does not belong to the others. Motion, figure, body and cloth must
+/* lone_first: the first frame does not belong to the others. Motion, figure, body and padding must
    outlive it. Memory from arena, as much for a long motion as for a short one. */
-MUST_CHECK bool relief_open(const Motion *m, const Figure *figure, const Body *body, const Cloth *cloth,
+MUST_CHECK bool relief_open(const Motion *m, const Figure *figure, const Body *body, const Padding *padding,
                             bool lone_first, Arena *arena, Relief **out, Error *e);
 void relief_close(Relief *r);
 

@@ -34,7 +34,7 @@ void take_close(Take *t);
 
 /* From now on arms are turned outwards where they leave no room for the cloth. `body` must be that of
    the figure. Before the first frame. */
-MUST_CHECK bool take_relax(Take *t, const Body *body, const Cloth *cloth, Arena *arena, Error *e);
+MUST_CHECK bool take_relax(Take *t, const Body *body, const Padding *padding, Arena *arena, Error *e);
 
 /* How many frames there will be. */
 int take_count(const Take *t);

@@ -5,13 +5,13 @@
 
 #include "figure/body.h"
 
-/* How far cloth stands off each part of the body, metres, where arm and trunk would touch and in front:
+/* How far garments stand off each part of the body, metres, where arm and trunk would touch and in front:
    at places spread evenly from the part's low end to its high end. 0: bare there. Clear with {0}. */
-enum { CLOTH_PLACES = 12 };
+enum { PADDING_PLACES = 12 };
 typedef struct {
-    double side[ROLE_COUNT][CLOTH_PLACES], front[ROLE_COUNT][CLOTH_PLACES];
+    double side[ROLE_COUNT][PADDING_PLACES], front[ROLE_COUNT][PADDING_PLACES];
     bool is_tube; /* some of it goes round both legs, and hangs between them too */
-} Cloth;
+} Padding;
 
 /* Degrees by which an arm is turned: the whole arm about the shoulder, out to the side and forwards,
    and forearm and hand about the elbow, out to the side. */
@@ -27,7 +27,7 @@ enum { ARM_LEFT, ARM_RIGHT, ARMS };
 /* The smallest turns that leave between each arm and trunk and thighs as much room as the cloth on
    both needs. 0 where they would not help: arms behind the back, hands between the legs. A continuous
    function of the pose. */
-void relax_find(const Figure *figure, const Body *body, const Cloth *cloth, const Pose *pose, ArmTurn out[ARMS]);
+void relax_find(const Figure *figure, const Body *body, const Padding *padding, const Pose *pose, ArmTurn out[ARMS]);
 
 /* Turns the arms of a pose. Out is the shortest way to where the bone would point straight to the
    side, and never further; forwards is about the line through both shoulders. */

@@ -41,10 +41,10 @@ bool lane_open(Lane *lane, const LaneWork *work, Error *e) {
 
 static bool relax_arms(Lane *lane, const LaneWork *work, Take *take, Error *e) {
     const Wearer *w = work->wearer;
-    lane->cloth = (Cloth){0};
+    lane->padding = (Padding){0};
     for (int g = 0; g < work->wardrobe->ngarments; g++)
-        if (!room_add(work->wardrobe->garment[g], &w->figure, &w->body, &lane->arena, &lane->cloth, e)) return false;
-    return take_relax(take, &w->body, &lane->cloth, &lane->arena, e);
+        if (!padding_add(work->wardrobe->garment[g], &w->figure, &w->body, &lane->arena, &lane->padding, e)) return false;
+    return take_relax(take, &w->body, &lane->padding, &lane->arena, e);
 }
 
 /* Hands a mesh to the press; rows share the time of writing it. What goes wrong the tally remembers. */

@@ -24,7 +24,7 @@ struct Relief {
     const Motion *motion;
     const Figure *figure;
     const Body *body;
-    const Cloth *cloth;
+    const Padding *padding;
     bool lone_first;
     MotionReader *reader;
     double *row;
@@ -37,11 +37,11 @@ struct Relief {
     double *weight;      /* reach + 1 of them, from the middle outwards */
 };
 
-bool relief_open(const Motion *m, const Figure *figure, const Body *body, const Cloth *cloth, bool lone_first,
+bool relief_open(const Motion *m, const Figure *figure, const Body *body, const Padding *padding, bool lone_first,
                  Arena *arena, Relief **out, Error *e) {
     Relief *r = *out = ARENA_NEW(arena, Relief, 1, e);
     if (!r) return false;
-    *r = (Relief){.motion = m, .figure = figure, .body = body, .cloth = cloth, .lone_first = lone_first};
+    *r = (Relief){.motion = m, .figure = figure, .body = body, .padding = padding, .lone_first = lone_first};
     r->span = fmin(REACH / m->frame_time, REACH_MOST);
     r->reach = (int)ceil(r->span);
     r->size = 4 * r->reach + 2; /* two windows to either side, and one frame that may be asked for again */
@@ -74,7 +74,7 @@ static bool read_frame(Relief *r, Error *e) {
         bool jump = jumps_judge(&rule, frame, &before, &r->pose, &width) == STEP_JUMP;
         now->stretch = moment_of(r, frame - 1)->stretch + jump;
     }
-    relax_find(r->figure, r->body, r->cloth, &r->pose, now->need);
+    relax_find(r->figure, r->body, r->padding, &r->pose, now->need);
     r->read++;
     return true;
 }

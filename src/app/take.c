@@ -152,8 +152,8 @@ void take_close(Take *t) {
     if (t) relief_close(t->relief);
 }
 
-bool take_relax(Take *t, const Body *body, const Cloth *cloth, Arena *arena, Error *e) {
-    return relief_open(t->motion, t->figure, body, cloth, t->lone_first, arena, &t->relief, e);
+bool take_relax(Take *t, const Body *body, const Padding *padding, Arena *arena, Error *e) {
+    return relief_open(t->motion, t->figure, body, padding, t->lone_first, arena, &t->relief, e);
 }
 
 int take_count(const Take *t) { return t->number > t->last ? 0 : (t->last - t->number) / t->step + 1; }

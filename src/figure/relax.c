@@ -53,7 +53,7 @@ static const double DEGREE = PI / 180, EVERYWHERE = 1e9;
 typedef struct {
     const Figure *figure;
     const Body *body;
-    const Cloth *cloth;
+    const Padding *padding;
     const Pose *pose;     /* with the turns found so far */
     int arm, ntrunk;
     const BodyPart *trunk[KEPT_OFF_MOST];
@@ -112,10 +112,10 @@ void relax_apply(const Figure *figure, const ArmTurn turn[ARMS], Pose *pose) {
 
 /* How far the cloth on a part stands off it at height y of the part's frame: in front of it as far as
    `facing` (cosine) says, else beside it. */
-static double cloth_at(const Cloth *cloth, const BodyPart *part, double y, double facing) {
-    double place = clamp((y - part->low) / (part->high - part->low), 0, 1) * (CLOTH_PLACES - 1);
-    int i = place < CLOTH_PLACES - 2 ? (int)place : CLOTH_PLACES - 2;
-    const double *side = cloth->side[part->role] + i, *front = cloth->front[part->role] + i;
+static double padding_at(const Padding *padding, const BodyPart *part, double y, double facing) {
+    double place = clamp((y - part->low) / (part->high - part->low), 0, 1) * (PADDING_PLACES - 1);
+    int i = place < PADDING_PLACES - 2 ? (int)place : PADDING_PLACES - 2;
+    const double *side = padding->side[part->role] + i, *front = padding->front[part->role] + i;
     double share = facing > 0 ? facing * facing : 0, t = place - i;
     return (1 - share) * (side[0] + t * (side[1] - side[0])) + share * (front[0] + t * (front[1] - front[0]));
 }
@@ -131,7 +131,7 @@ typedef struct {
 static Slice slice_of(const Search *s, const BodyPart *part, double y) {
     Rigid g = rigid_mul(s->pose->bone[part->role], part->frame);
     Section c = body_section_at(part, y, NULL);
-    Slice out = {rigid_apply(g, vec(c.x, y, c.z)), g.r, c, cloth_at(s->cloth, part, y, 0), 0};
+    Slice out = {rigid_apply(g, vec(c.x, y, c.z)), g.r, c, padding_at(s->padding, part, y, 0), 0};
     if (part->role == upper_arm(s->arm))
         out.grace = ARMPIT_DEPTH * figure_scale(s->figure->height) *
                     (1 - smoothstep(ARMPIT_FROM, ARMPIT_TO, y / part->length));
@@ -180,7 +180,7 @@ static Gap gap_after(const Search *s, const Slice *slice, int trunk, Rigid turn)
         normal = mat_apply(mat_transpose(s->to_part[trunk].r), normal);
         if (pass == 0) point = rim_point(slice, turn.r, centre, vec_scale(normal, -1));
     }
-    double cloth = cloth_at(s->cloth, part, local.y, facing) + slice->cloth;
+    double cloth = padding_at(s->padding, part, local.y, facing) + slice->cloth;
     double wanted = cloth > 0 ? cloth + SPARE * size : -FAR * size;
     return (Gap){wanted - slice->grace - distance, point, normal};
 }
@@ -307,15 +307,15 @@ static void keep_off_between(Search *s, const BodyPart *left, const BodyPart *ri
     }
 }
 
-void relax_find(const Figure *figure, const Body *body, const Cloth *cloth, const Pose *pose, ArmTurn out[ARMS]) {
-    Search s = {.figure = figure, .body = body, .cloth = cloth};
+void relax_find(const Figure *figure, const Body *body, const Padding *padding, const Pose *pose, ArmTurn out[ARMS]) {
+    Search s = {.figure = figure, .body = body, .padding = padding};
     int left = body->of_role[ROLE_LEFT_THIGH], right = body->of_role[ROLE_RIGHT_THIGH];
     for (int t = 0; t < TRUNK_PARTS; t++) {
         if (body->of_role[TRUNK[t]] < 0) continue;
         const BodyPart *part = &body->part[body->of_role[TRUNK[t]]];
         keep_off(&s, part, rigid_mul(pose->bone[part->role], part->frame));
     }
-    if (cloth->is_tube && left >= 0 && right >= 0)
+    if (padding->is_tube && left >= 0 && right >= 0)
         keep_off_between(&s, &body->part[left], &body->part[right], pose);
     for (int arm = 0; arm < ARMS; arm++) {
         s.arm = arm;

@@ -1,7 +1,7 @@
 /* Samples the garment in the canonical stance. Each sample belongs to the part that is nearest of those
    that its patch keeps out of, and counts where arm and trunk would touch: on the outer side of
    trunk and legs, on the inner side of the arms, and in front. */
-#include "dress/room.h"
+#include "dress/padding.h"
 
 #include "dress/follow.h"
 
@@ -26,7 +26,7 @@ static Vec3 side_of(const BodyPart *part, Vec3 p) {
 }
 
 /* p belongs to the nearest part, and to both legs where it is as near to one as to the other. */
-static void add_sample(const Body *body, unsigned collide, Vec3 p, double most, Cloth *cloth) {
+static void add_sample(const Body *body, unsigned collide, Vec3 p, double most, Padding *sum) {
     double least = 1;
     Vec3 normal;
     for (int i = 0; i < body->nparts; i++) {
@@ -39,14 +39,15 @@ static void add_sample(const Body *body, unsigned collide, Vec3 p, double most, 
         Vec3 local = rigid_unapply(part->frame, p);
         if (!(collide >> part->role & 1) || body_distance(part, local, least + SAME, &normal) >= least + SAME) continue;
         normal = mat_apply(part->frame.r, normal);
-        int place = (int)(clamp((local.y - part->low) / (part->high - part->low), 0, 1) * (CLOTH_PLACES - 1) + 0.5);
-        double *side = &cloth->side[part->role][place], *front = &cloth->front[part->role][place];
+        int place = (int)(clamp((local.y - part->low) / (part->high - part->low), 0, 1) * (PADDING_PLACES - 1) + 0.5);
+        double *side = &sum->side[part->role][place], *front = &sum->front[part->role][place];
         if (vec_dot(normal, side_of(part, p)) >= FACING) *side = fmax(*side, fmin(least, most));
         if (normal.z >= FACING) *front = fmax(*front, fmin(least, most));
     }
 }
 
-bool room_add(const Garment *garment, const Figure *figure, const Body *body, Arena *arena, Cloth *cloth, Error *e) {
+bool padding_add(const Garment *garment, const Figure *figure, const Body *body, Arena *arena, Padding *sum,
+                 Error *e) {
     Fit *fit = ARENA_NEW(arena, Fit, 1, e);
     Follower follower;
     Pose stance = figure_rest_pose();
@@ -56,12 +57,12 @@ bool room_add(const Garment *garment, const Figure *figure, const Body *body, Ar
     Patch *patch = ARENA_NEW(arena, Patch, fit->npatches, e);
     if (!patch) return false;
     follow_pose(&follower, &stance, patch);
-    cloth->is_tube = cloth->is_tube || garment->follow == FOLLOW_ENVELOPE;
+    sum->is_tube = sum->is_tube || garment->follow == FOLLOW_ENVELOPE;
     double most = garment->loose ? INFINITY : TIGHT_MOST * figure_scale(figure->height);
     for (int p = 0; p < fit->npatches; p++)
         for (int k = 0; k <= SAMPLES * (SAMPLES + 2); k++) {
             double u = k % (SAMPLES + 1) / (double)SAMPLES, w = k / (SAMPLES + 1) / (double)SAMPLES;
-            add_sample(body, fit->patch[p].collide, bezier_point(&patch[p], u, w, NULL, NULL), most, cloth);
+            add_sample(body, fit->patch[p].collide, bezier_point(&patch[p], u, w, NULL, NULL), most, sum);
         }
     return true;
 }
