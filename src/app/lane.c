@@ -41,9 +41,10 @@ bool lane_open(Lane *lane, const LaneWork *work, Error *e) {
 
 static bool relax_arms(Lane *lane, const LaneWork *work, Take *take, Error *e) {
     const Wearer *w = work->wearer;
+    const Wardrobe *wardrobe = work->wardrobe;
     lane->padding = (Padding){0};
-    for (int g = 0; g < work->wardrobe->ngarments; g++)
-        if (!padding_add(work->wardrobe->garment[g], &w->figure, &w->body, &lane->arena, &lane->padding, e)) return false;
+    for (int g = 0; g < wardrobe->ngarments; g++)
+        if (!padding_add(wardrobe->garment[g], &w->figure, &w->body, &lane->arena, &lane->padding, e)) return false;
     return take_relax(take, &w->body, &lane->padding, &lane->arena, e);
 }
 
