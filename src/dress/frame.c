@@ -1,10 +1,10 @@
 /* One frame:
 
      follow     the root patches follow the pose (global deformation)
-     classify   which patches intersect, split those in four (the paper's rule)
-     solve      (dress/solve) what the last frame displaced is carried along; leaves become one watertight
-                mesh, which is pushed off the body and tested as it will be written, until nothing is found
-     test       what is left, against all parts; then normals and parameters */
+     refine     which patches intersect, those are split in four (the paper's rule)
+     solve      what the last frame displaced is carried along; leaves become one watertight mesh, which is pushed
+                off the body and tested as it will be written, until nothing is found
+     fill_mesh  normals, parameters and groups of what is written */
 #include "dress/frame.h"
 
 #include "base/clock.h"
@@ -102,12 +102,12 @@ static void set_groups(Dresser *d, const int *first_of_patch, Mesh *mesh) {
 
 static void fill_mesh(Dresser *d, Mesh *mesh) {
     const Sheet *s = &d->solver.cloth.sheet;
-    int n = d->lattice.side + 1;
+    int patch, i, j, side = d->lattice.side;
     surface_normals(&d->solver.cloth.push.surface, s, &d->solver.cloth.push.field, d->root, d->normal);
     for (int v = 0; v < s->nvertices; v++) {
-        int owner = d->lattice.owner[s->place[v]];
-        d->u[v] = (double)(owner / n % n) / d->lattice.side;
-        d->w[v] = (double)(owner % n) / d->lattice.side;
+        lattice_owner(&d->lattice, s->place[v], &patch, &i, &j);
+        d->u[v] = (double)i / side;
+        d->w[v] = (double)j / side;
     }
     *mesh = sheet_mesh(s, d->solver.cloth.position);
     mesh->normal = d->normal;

@@ -134,6 +134,15 @@ void tessellate(Sheet *s, const Leaves *leaves) {
     list_lone(s, leaves);
 }
 
+Mesh sheet_mesh(const Sheet *s, Vec3 *position) {
+    return (Mesh){.nvertices = s->nvertices,
+                  .ntriangles = s->ntriangles,
+                  .nedges = s->nedges,
+                  .position = position,
+                  .triangle = s->triangle,
+                  .edge = s->edge};
+}
+
 /* Lists the edges along one side of a leaf, `places` lattice steps long, that the mesh has there. */
 static int side_borders(const Sheet *s, int patch, int i, int j, int di, int dj, int places, Edge *out) {
     int n = 0, last = s->vertex[lattice_place(s->lattice, patch, i, j)];
@@ -150,15 +159,6 @@ static int by_vertices(const void *a, const void *b) {
     const Edge *p = a, *q = b;
     int c = p->v[0] == q->v[0]; /* the first in which they differ, if any */
     return (p->v[c] > q->v[c]) - (p->v[c] < q->v[c]);
-}
-
-Mesh sheet_mesh(const Sheet *s, Vec3 *position) {
-    return (Mesh){.nvertices = s->nvertices,
-                  .ntriangles = s->ntriangles,
-                  .nedges = s->nedges,
-                  .position = position,
-                  .triangle = s->triangle,
-                  .edge = s->edge};
 }
 
 /* Neighbours list a border once each: twice in all, however different their levels. */
