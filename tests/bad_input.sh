@@ -38,6 +38,8 @@ last=$(wc -l <good.bvh | tr -d ' ')
 
 ok 'the whole one is dressed' "$KITSUKE" dress -q good.bvh -g "$skirt" -o whole --format none
 refused 'motion: missing' "cannot open 'nowhere.bvh': No such file" nowhere.bvh -g "$skirt"
+# In the folder where "$unset" leaves the shell there are motions
+refused 'motion: no name' "cannot open ''" '' -g "$skirt"
 mkdir empty
 refused 'motion: a folder without motions' "no motion .* in the folder 'empty'" empty -g "$skirt"
 : >x.bvh; motion empty "'x.bvh' is empty"

@@ -98,6 +98,18 @@ static void test_units(void) {
     session_close(s);
 }
 
+static void test_rate(void) {
+    Session *s = &session;
+    folder_put_text("rate.asf", ASF);
+    folder_put_text("rate.amc", ":FULLY-SPECIFIED\n:SAMPLES-PER-SECOND 50\n:DEGREES\n1\n" VALUES);
+    bool good = session_open(s, in_folder("rate.amc"), (MotionOptions){0});
+    OK(good && s->motion.has_frame_time && s->motion.frame_time == 1.0 / 50, "a rate in the file %s", s->e.text);
+    session_close(s);
+    good = session_open(s, in_folder("rate.amc"), (MotionOptions){.fps = 60});
+    OK(good && s->motion.frame_time == 1.0 / 60, "--fps counts more");
+    session_close(s);
+}
+
 typedef struct {
     const char *what, *text, *message; /* a part of the error or warning; NULL: there is none */
     int frames, line, column;          /* frames 0: refused */
@@ -124,6 +136,9 @@ static const Case motions[] = {
     {"text for a frame's number", "#\n:DEGREES\nroot 1 2 3 4 5 6\n", "expected the number of a frame, found 'root'",
      0, 3, 1},
     {"no frames", ":FULLY-SPECIFIED\n:DEGREES\n", "no complete frame", 0, 0, 0},
+    {"a rate that is none", ":SAMPLES-PER-SECOND fast\n1\n" VALUES, "expected a number, found 'fast'", 0, 1, 21},
+    {"a rate of nothing", ":DEGREES\n:SAMPLES-PER-SECOND\n1\n" VALUES, NULL, 1, 0, 0},
+    {"a rate of zero", ":SAMPLES-PER-SECOND 0\n1\n" VALUES, "not positive", 0, 1, 21},
     {"a skeleton for a motion", ASF, "an ASF skeleton without a motion", 0, 2, 1},
 };
 
@@ -219,6 +234,7 @@ int main(void) {
     if (!folder_make()) return 1;
     test_skeleton();
     test_units();
+    test_rate();
     test_cases();
     test_search();
     folder_remove();

@@ -74,7 +74,8 @@ static bool search_folder(Search *s, const char *path, size_t root, int depth) {
     return true;
 }
 
-/* The path without "//" and "/./", so that one file has one name. */
+/* The path without "//" and "/./", so that one file has one name. No name stays none: what "$unset" gives a shell is
+   not the folder it stands in. */
 static char *tidy(const char *path, Arena *arena, Error *e) {
     char *out = arena_text(arena, path, strlen(path), e), *to = out;
     for (const char *at = out; out && *at;) {
@@ -83,7 +84,7 @@ static char *tidy(const char *path, Arena *arena, Error *e) {
         else *to++ = *at++;
     }
     if (out) *to = 0;
-    return out && !*out ? arena_text(arena, ".", 1, e) : out;
+    return out && !*out && *path ? arena_text(arena, ".", 1, e) : out;
 }
 
 static bool add_file(Search *s, const char *path) {

@@ -112,6 +112,18 @@ static bool no_motion(Stream *s, Word w, Error *e) {
     return stream_error(s, e, "neither BVH nor Acclaim AMC: found '%.*s'", n, w.start);
 }
 
+/* The rate, which few files tell. */
+static bool read_rate(Opening *o, Error *e) {
+    Stream *s = &o->in;
+    double rate = 0;
+    if (!stream_blanks(s)) return true;
+    Mark start = stream_mark(s);
+    NumberResult r = stream_number(s, &rate);
+    if (r > NUMBER_GLUED && !(o->options->fps > 0)) return stream_refuse(s, r, "the samples a second", e);
+    stream_seek(s, start);
+    return source_rate(o, rate > 0 ? 1 / rate : 0, e);
+}
+
 /* Comments and keywords in front of the frames. */
 static bool read_head(Opening *o, double *degrees, Error *e) {
     static const char *const asf_words[] = {":version", ":name", ":units", ":root", ":bonedata", ":hierarchy"};
@@ -126,6 +138,10 @@ static bool read_head(Opening *o, double *degrees, Error *e) {
                 return stream_error(s, e, "this is an ASF skeleton without a motion; name the AMC file");
         if (word_is(w, ":RADIANS")) *degrees = 180 / PI;
         if (word_is(w, ":DEGREES")) *degrees = 1;
+        if (word_is(w, ":SAMPLES-PER-SECOND")) {
+            stream_word(s);
+            if (!read_rate(o, e)) return false;
+        }
         stream_skip_line(s);
     }
 }

@@ -1,6 +1,7 @@
 /* `kitsuke walk`: checks what was asked for, fills in what was not, and writes the motion. */
 #include "motion/gait.h"
 
+#include <errno.h>
 #include <string.h>
 
 #include "motion/gait_paper.h"
@@ -155,6 +156,6 @@ bool gait_write(const Gait *g, FILE *out, Error *e) {
     bool good = strcmp(preset->name, "paper") == 0   ? write_paper(&full, frame_time, out)
                 : strcmp(preset->name, "squat") == 0 ? write_squat(&full, frame_time, out)
                                                      : write_walk(&full, frame_time, out, e);
-    if (good && ferror(out)) return error_set(e, ERR_OUTPUT, "cannot write the motion");
+    if (good && ferror(out)) return error_set(e, ERR_OUTPUT, "cannot write the motion: %s", strerror(errno));
     return good;
 }
