@@ -12,6 +12,7 @@ typedef struct {
     Leaves grid;             /* what is tessellated under a fixed topology */
     Field before;            /* frames that are astray, */
     bool is_astray;          /* as the last one was */
+    bool is_thrown;          /* a frame has left something and thrown cloth far, where it has stayed since */
 } Solver;
 
 /* Fit and lattice must outlive the solver. */

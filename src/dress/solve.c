@@ -7,11 +7,10 @@
 
 #include "base/clock.h"
 
-static const double FAR = 0.65;     /* of the cap: cloth moved farther than that is tried anew from its global shape, */
-static const double CLOSER = 0.6;   /* and left there if that share of the way does as well */
+static const double FAR = 0.65;     /* of the cap: cloth that an outcome with something left has thrown farther than that */
+static const double CLOSER = 0.6;   /* is laid anew once that share of the way does as well */
 static const double THROWN = 2;     /* residuals of cloth at the cap count 1 + this */
 static const double HOPELESS = 0.03;/* residuals per edge of the mesh: no attempt has ever mended that many */
-static const double NEAR = 0.45;    /* of the cap, in the last attempt */
 /* How far a level is moved against the next finer one: in a tight garment less, so that a place that is pinched
    carries less of its neighbours away; a loose one gives way as a whole. */
 static const double TIGHT = 0.7, LOOSE = 1;
@@ -24,6 +23,7 @@ bool solver_reserve(Solver *s, const Fit *fit, const Lattice *lattice, const Dre
         !field_reserve(&s->before, lattice, arena, e))
         return false;
     leaves_fill(&s->grid, lattice->depth);
+    s->cloth.push.coarser = fit->garment->loose ? LOOSE : TIGHT;
     return true;
 }
 
@@ -54,10 +54,10 @@ static void take_back(Solver *s, const BodyFrame *body, FrameStats *stats) {
 }
 
 /* Where an attempt leaves something of the parts that the garment is worn over, others are made from the
-   global shape alone: as if nothing had been before; with finer patches where that leaves something; and so that
-   nothing may move far, for what has been thrown across a limb comes to rest beside it then. The best stays. */
-enum { CARRIED, FRESH, FINER, CLOSE_BY, ATTEMPTS };
-static void prepare(Solver *s, int attempt, double cap) {
+   global shape alone: as if nothing had been before; and with finer patches where that leaves something. The best
+   stays. */
+enum { CARRIED, FRESH, FINER, ATTEMPTS };
+static void prepare(Solver *s, int attempt) {
     Cloth *c = &s->cloth;
     if (attempt == FRESH) leaves_copy(&s->fresh, &c->leaves);
     else if (attempt > FRESH && s->may_split) split_where_bad(c);
@@ -65,48 +65,43 @@ static void prepare(Solver *s, int attempt, double cap) {
         lay_sheet(s);
         field_forget(&c->push.field);
     }
-    c->push.coarser = c->fit->garment->loose ? LOOSE : TIGHT;
-    c->push.field.cap = attempt == CLOSE_BY ? NEAR * cap : cap;
 }
 
-/* Parts that the garment is worn over count first: nothing of them may show. Among outcomes that leave some, and
-   among those that do not, cloth that has been thrown far counts too. For parts from outside alone cloth does not
-   jump unless nothing is left of them. */
+static bool is_far(const Outcome *o, double cap) { return o->push.displacement > FAR * cap; }
+
+/* Of outcomes that leave something, cloth that has been thrown far counts too. */
 static bool is_better(const Outcome *a, const Outcome *b, double cap) {
     int own_a = residual_total(&a->wrong.own), own_b = residual_total(&b->wrong.own);
     double far_a = a->push.displacement / cap, far_b = b->push.displacement / cap;
-    if (own_a > 0 && own_b > 0) return own_a * (1 + THROWN * far_a) < own_b * (1 + THROWN * far_b);
-    if (own_a + own_b > 0) return own_a == 0;
-    if (far_b > FAR && far_a < CLOSER * far_b) return true;
-    return residual_total(&a->wrong.other) == 0 && residual_total(&b->wrong.other) > 0 && far_a <= fmax(far_b, FAR);
+    if (own_a == 0 && own_b == 0) return far_a < CLOSER * far_b;
+    return own_a * (1 + THROWN * far_a) < own_b * (1 + THROWN * far_b);
 }
 
-/* Is attempt k worth making? Where something is left, but not so much that the body leaves no room at all; and
-   the first, which forgets what was carried, also where that has kept cloth far away. */
-static bool is_wanting(const Cloth *c, const Outcome *o, int k, bool is_carried) {
+/* Is another attempt worth making? Where something is left, but not so much that the body leaves no room at all. The
+   first also while cloth lies far away that has been thrown there when something was left. */
+static bool is_wanting(const Solver *s, const Outcome *o, int attempt) {
     int own = residual_total(&o->wrong.own);
-    if (k == FRESH) return own > 0 || (is_carried && o->push.displacement > FAR * c->push.field.cap);
-    return own > 0 && own <= HOPELESS * c->sheet.nedges;
+    if (attempt == FRESH) return own > 0 || (s->is_thrown && is_far(o, s->cloth.push.field.cap));
+    return own > 0 && own <= HOPELESS * s->cloth.sheet.nedges;
 }
 
 static Wrong push_and_test(Solver *s, const BodyFrame *body, FrameStats *stats) {
     Cloth *c = &s->cloth;
     double cap = c->push.field.cap;
-    bool is_carried = field_levels(&c->push.field) > 0;
-    prepare(s, CARRIED, cap);
+    prepare(s, CARRIED);
     Outcome best = attempt_push(c, body, stats);
     stats->sweeps = best.push.sweeps;
-    for (int k = FRESH; k < ATTEMPTS && is_wanting(c, &best, k, is_carried); k++) {
+    for (int k = FRESH; k < ATTEMPTS && is_wanting(s, &best, k); k++) {
         keep(s);
         c->settler.denter.is_off = residual_total(&best.wrong.own) > 0;
-        prepare(s, k, cap);
+        prepare(s, k);
         Outcome other = attempt_push(c, body, stats);
         stats->sweeps += other.push.sweeps;
         if (is_better(&other, &best, cap)) best = other;
         else take_back(s, body, stats);
     }
-    c->push.field.cap = cap;
     c->settler.denter.is_off = false;
+    s->is_thrown = is_far(&best, cap) && (s->is_thrown || residual_total(&best.wrong.own) > 0);
     stats->capped |= residual_total(&best.wrong.own) + residual_total(&best.wrong.other) > 0 || best.push.capped;
     stats->active = best.push.active;
     stats->pinched = best.push.pinched + attempt_pinched(c, body);
