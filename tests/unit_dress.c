@@ -50,21 +50,20 @@ static void field_is_smooth(Cloth *s, const char *name) {
     for (int p = 0; p < s->fit.npatches; p++)
         for (int i = 0; i <= l->side; i++)
             for (int j = 0; j <= l->side; j++) {
-                Vec3 sum = {0, 0, 0}, across = {0, 0, 0};
+                Vec3 sum = {0, 0, 0}, across = sum, along = sum;
                 for (int level = 0; level <= DEPTH; level++) {
-                    int id[4];
-                    double w[4], wu[4], ww[4];
-                    lattice_weights(l, level, p, i, j, id, w, wu, ww);
+                    LatticeWeights of = lattice_weights(l, level, (LatticeIndex){p, i, j});
                     for (int k = 0; k < 4; k++) {
-                        sum = vec_mad(sum, d[level][id[k]], w[k]);
-                        if (i == 0 || i == l->side) across = vec_mad(across, d[level][id[k]], wu[k]);
+                        sum = vec_mad(sum, d[level][of.vertex[k]], of.weight[k]);
+                        if (i == 0 || i == l->side) across = vec_mad(across, d[level][of.vertex[k]], of.du[k]);
+                        if (j == 0 || j == l->side) along = vec_mad(along, d[level][of.vertex[k]], of.dw[k]);
                     }
                 }
                 int place = lattice_place(l, p, i, j);
                 if (known[place]) gap = fmax(gap, vec_dist(sum, seen[place]));
                 seen[place] = sum;
                 known[place] = true;
-                slope = fmax(slope, vec_len(across));
+                slope = fmax(slope, fmax(vec_len(across), vec_len(along)));
             }
     NEAR(gap, 0, 1e-14, "neighbouring patches displace their common edge alike");
     NEAR(slope, 0, 1e-13, "the field has no slope across an edge");

@@ -29,10 +29,9 @@ static Vec3 surface(const Push *p, const Patch *root, int patch, int i, int j) {
     const Lattice *l = p->lattice;
     Vec3 x = bezier_point(&root[patch], (double)i / l->side, (double)j / l->side, NULL, NULL);
     for (int level = 0; level <= l->depth; level++) {
-        int id[4];
-        double weight[4];
-        lattice_weights(l, level, patch, i, j, id, weight, NULL, NULL);
-        for (int k = 0; k < 4; k++) x = vec_mad(x, p->field.displacement[p->field.start[level] + id[k]], weight[k]);
+        LatticeWeights of = lattice_weights(l, level, (LatticeIndex){patch, i, j});
+        for (int k = 0; k < 4; k++)
+            x = vec_mad(x, p->field.displacement[p->field.start[level] + of.vertex[k]], of.weight[k]);
     }
     return x;
 }

@@ -15,6 +15,7 @@
 enum { LATTICE_DEPTH_MAX = 3, LATTICE_LEVELS = LATTICE_DEPTH_MAX + 1 };
 
 typedef struct { int patch, a, b; } LatticeCell; /* cell (a, b) of a level: a along u, b along w */
+typedef struct { int patch, i, j; } LatticeIndex; /* of a place in a patch: i along u, j along w, 0..side */
 
 /* Where a lattice coordinate stands among the cells of a level: in which, and how its two ends weigh,
    h and its derivative by the patch parameter. */
@@ -49,14 +50,14 @@ MUST_CHECK bool lattice_build(const Fit *fit, int detail, int depth, Arena *aren
 /* Cells of the deepest level, of all patches. */
 static inline int lattice_cells(const Lattice *l) { return l->fit->npatches << (2 * l->depth); }
 
-/* Number of the place (i, j) of a patch. */
+/* Number of a place of a patch. */
 static inline int lattice_place(const Lattice *l, int patch, int i, int j) {
     int n = l->side + 1;
     return l->place[(patch * n + i) * n + j];
 }
 
-/* Patch and lattice coordinates under which a place is evaluated. */
-void lattice_owner(const Lattice *l, int place, int *patch, int *i, int *j);
+/* Under which patch a place is evaluated, and where in it. */
+LatticeIndex lattice_owner(const Lattice *l, int place);
 
 /* A place on the root patches. */
 Vec3 lattice_point(const Lattice *l, const Patch *root, int place);
@@ -65,9 +66,9 @@ Vec3 lattice_point(const Lattice *l, const Patch *root, int place);
 Vec3 lattice_outwards(const Lattice *l, int patch, Vec3 du, Vec3 dw);
 Vec3 lattice_normal(const Lattice *l, const Patch *root, int place);
 
-/* The up to four level-l vertices that move a place and their weights; du, dw (may be NULL): the
-   weights' derivatives by the patch parameters. patch, i, j as in `owner`. */
-void lattice_weights(const Lattice *l, int level, int patch, int i, int j, int vertex[4], double weight[4],
-                     double du[4], double dw[4]);
+/* What moves a place: up to four vertices of a level, how they weigh, and the weights' derivatives by the patch
+   parameters. */
+typedef struct { int vertex[4]; double weight[4], du[4], dw[4]; } LatticeWeights;
+LatticeWeights lattice_weights(const Lattice *l, int level, LatticeIndex at);
 
 #endif

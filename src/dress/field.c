@@ -107,35 +107,31 @@ unsigned field_levels(const Field *f) {
 }
 
 Vec3 field_at(const Field *f, unsigned levels, int place) {
-    const Lattice *l = f->lattice;
-    int patch, i, j, vertex[4];
-    double weight[4];
+    LatticeIndex at = lattice_owner(f->lattice, place);
     Vec3 d = {0, 0, 0};
-    lattice_owner(l, place, &patch, &i, &j);
     for (int level = 0; levels >> level; level++) {
         if (!(levels >> level & 1)) continue;
-        lattice_weights(l, level, patch, i, j, vertex, weight, NULL, NULL);
-        for (int k = 0; k < 4; k++) d = vec_mad(d, f->displacement[f->start[level] + vertex[k]], weight[k]);
+        LatticeWeights of = lattice_weights(f->lattice, level, at);
+        for (int k = 0; k < 4; k++) d = vec_mad(d, f->displacement[f->start[level] + of.vertex[k]], of.weight[k]);
     }
     return d;
 }
 
 Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place) {
     const Lattice *l = f->lattice;
-    int patch, i, j, id[4];
-    lattice_owner(l, place, &patch, &i, &j);
-    Vec3 du = bezier_weighted(&root[patch], l->basis_slope[i], l->basis[j]);
-    Vec3 dw = bezier_weighted(&root[patch], l->basis[i], l->basis_slope[j]);
+    LatticeIndex at = lattice_owner(l, place);
+    Vec3 du = bezier_weighted(&root[at.patch], l->basis_slope[at.i], l->basis[at.j]);
+    Vec3 dw = bezier_weighted(&root[at.patch], l->basis[at.i], l->basis_slope[at.j]);
     for (int level = 0; levels >> level; level++) {
         if (!(levels >> level & 1)) continue;
-        double weight[4], wu[4], ww[4];
-        lattice_weights(l, level, patch, i, j, id, weight, wu, ww);
+        LatticeWeights of = lattice_weights(l, level, at);
         for (int k = 0; k < 4; k++) {
-            du = vec_mad(du, f->displacement[f->start[level] + id[k]], wu[k]);
-            dw = vec_mad(dw, f->displacement[f->start[level] + id[k]], ww[k]);
+            Vec3 d = f->displacement[f->start[level] + of.vertex[k]];
+            du = vec_mad(du, d, of.du[k]);
+            dw = vec_mad(dw, d, of.dw[k]);
         }
     }
-    return lattice_outwards(l, patch, du, dw);
+    return lattice_outwards(l, at.patch, du, dw);
 }
 
 /* The four corners' vectors, each to its quarter of the control points. */

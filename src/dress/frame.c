@@ -102,12 +102,12 @@ static void set_groups(Dresser *d, const int *first_of_patch, Mesh *mesh) {
 
 static void fill_mesh(Dresser *d, Mesh *mesh) {
     const Sheet *s = &d->solver.cloth.sheet;
-    int patch, i, j, side = d->lattice.side;
+    int side = d->lattice.side;
     surface_normals(&d->solver.cloth.push.surface, s, &d->solver.cloth.push.field, d->root, d->normal);
     for (int v = 0; v < s->nvertices; v++) {
-        lattice_owner(&d->lattice, s->place[v], &patch, &i, &j);
-        d->u[v] = (double)i / side;
-        d->w[v] = (double)j / side;
+        LatticeIndex at = lattice_owner(&d->lattice, s->place[v]);
+        d->u[v] = (double)at.i / side;
+        d->w[v] = (double)at.j / side;
     }
     *mesh = sheet_mesh(s, d->solver.cloth.position);
     mesh->normal = d->normal;

@@ -198,32 +198,30 @@ bool lattice_build(const Fit *fit, int detail, int depth, Arena *arena, Lattice 
     return true;
 }
 
-void lattice_weights(const Lattice *l, int number, int patch, int i, int j, int vertex[4], double weight[4],
-                     double du[4], double dw[4]) {
+LatticeWeights lattice_weights(const Lattice *l, int number, LatticeIndex at) {
     const LatticeLevel *level = &l->level[number];
-    const LatticeStep *u = &level->step[i], *w = &level->step[j];
+    const LatticeStep *u = &level->step[at.i], *w = &level->step[at.j];
     int n = (1 << number) + 1;
-    const int *corner = &level->vertex[(patch * n + u->cell) * n + w->cell];
+    const int *corner = &level->vertex[(at.patch * n + u->cell) * n + w->cell];
+    LatticeWeights out;
     for (int k = 0; k < 4; k++) {
         int x = k / 2, y = k % 2;
-        vertex[k] = corner[x * n + y];
-        weight[k] = u->weight[x] * w->weight[y];
-        if (du) du[k] = u->slope[x] * w->weight[y];
-        if (dw) dw[k] = u->weight[x] * w->slope[y];
+        out.vertex[k] = corner[x * n + y];
+        out.weight[k] = u->weight[x] * w->weight[y];
+        out.du[k] = u->slope[x] * w->weight[y];
+        out.dw[k] = u->weight[x] * w->slope[y];
     }
+    return out;
 }
 
-void lattice_owner(const Lattice *l, int place, int *patch, int *i, int *j) {
+LatticeIndex lattice_owner(const Lattice *l, int place) {
     int n = l->side + 1, o = l->owner[place];
-    *patch = o / (n * n);
-    *i = o / n % n;
-    *j = o % n;
+    return (LatticeIndex){o / (n * n), o / n % n, o % n};
 }
 
 Vec3 lattice_point(const Lattice *l, const Patch *root, int place) {
-    int patch, i, j;
-    lattice_owner(l, place, &patch, &i, &j);
-    return bezier_weighted(&root[patch], l->basis[i], l->basis[j]);
+    LatticeIndex at = lattice_owner(l, place);
+    return bezier_weighted(&root[at.patch], l->basis[at.i], l->basis[at.j]);
 }
 
 Vec3 lattice_outwards(const Lattice *l, int patch, Vec3 du, Vec3 dw) {
@@ -232,9 +230,8 @@ Vec3 lattice_outwards(const Lattice *l, int patch, Vec3 du, Vec3 dw) {
 }
 
 Vec3 lattice_normal(const Lattice *l, const Patch *root, int place) {
-    int patch, i, j;
-    lattice_owner(l, place, &patch, &i, &j);
-    Vec3 du = bezier_weighted(&root[patch], l->basis_slope[i], l->basis[j]);
-    Vec3 dw = bezier_weighted(&root[patch], l->basis[i], l->basis_slope[j]);
-    return lattice_outwards(l, patch, du, dw);
+    LatticeIndex at = lattice_owner(l, place);
+    Vec3 du = bezier_weighted(&root[at.patch], l->basis_slope[at.i], l->basis[at.j]);
+    Vec3 dw = bezier_weighted(&root[at.patch], l->basis[at.i], l->basis_slope[at.j]);
+    return lattice_outwards(l, at.patch, du, dw);
 }

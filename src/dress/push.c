@@ -27,12 +27,11 @@ static const double HEADWAY = 0.6;   /* pushes that get this share of their leng
 static void list_unknowns(Push *p) {
     const Lattice *l = p->lattice;
     int cells = 1 << l->depth, ncells = l->fit->npatches * cells * cells;
-    double weight[4];
     for (int c = 0; c < ncells; c++)
         for (int level = 0; level <= l->depth; level++) {
-            int *unknown = p->cell[c].unknown[level], a = c / cells % cells, b = c % cells;
-            lattice_weights(l, level, c / (cells * cells), a * l->detail, b * l->detail, unknown, weight, NULL, NULL);
-            for (int k = 0; k < 4; k++) unknown[k] += p->field.start[level];
+            LatticeIndex first = {c / (cells * cells), c / cells % cells * l->detail, c % cells * l->detail};
+            LatticeWeights of = lattice_weights(l, level, first);
+            for (int k = 0; k < 4; k++) p->cell[c].unknown[level][k] = p->field.start[level] + of.vertex[k];
         }
     for (int i = 0; i <= l->side; i++)
         for (int level = 0; level <= l->depth; level++)
@@ -142,13 +141,13 @@ static void add_sample(Push *p, int vertex, int place, unsigned parts, double fa
     const Lattice *l = p->lattice;
     const LatticeStep *deepest = l->level[l->depth].step;
     PushSample *s = &p->sample[p->nsamples++];
-    int patch, i, j, cells = 1 << l->depth;
-    lattice_owner(l, place, &patch, &i, &j);
+    LatticeIndex at = lattice_owner(l, place);
+    int cells = 1 << l->depth;
     s->vertex = vertex;
-    s->patch = patch;
-    s->cell = &p->cell[(patch * cells + deepest[i].cell) * cells + deepest[j].cell];
-    s->u = &p->along[i];
-    s->w = &p->along[j];
+    s->patch = at.patch;
+    s->cell = &p->cell[(at.patch * cells + deepest[at.i].cell) * cells + deepest[at.j].cell];
+    s->u = &p->along[at.i];
+    s->w = &p->along[at.j];
     s->near = p->near[vertex];
     s->near.parts = parts;
     near_sum(&s->near, far);

@@ -33,10 +33,9 @@ static void lay_sheet(Solver *s) { tessellate(&s->cloth.sheet, s->fixed_topology
 static void split_where_bad(Cloth *c) {
     const Lattice *l = c->push.lattice;
     const LatticeStep *step = l->level[l->depth].step;
-    int patch, i, j;
     for (int k = 0; k < c->tester.nbad; k++) {
-        lattice_owner(l, c->sheet.place[c->tester.bad[k]], &patch, &i, &j);
-        leaves_split(&c->leaves, patch, l->depth, step[i].cell, step[j].cell);
+        LatticeIndex at = lattice_owner(l, c->sheet.place[c->tester.bad[k]]);
+        leaves_split(&c->leaves, at.patch, l->depth, step[at.i].cell, step[at.j].cell);
     }
 }
 

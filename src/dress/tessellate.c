@@ -91,14 +91,13 @@ static void lay_leaf(Sheet *s, int patch, int i0, int j0, int stride) {
 /* Does the vertex stand on the grid of the leaf that its owner has there? One on a border between leaves may stand
    on that of any of them. */
 static bool on_grid(const Lattice *l, const Leaves *leaves, int place) {
-    int patch, i, j, cells = 1 << l->depth;
-    lattice_owner(l, place, &patch, &i, &j);
-    int x = i / l->detail, y = j / l->detail;
+    LatticeIndex at = lattice_owner(l, place);
+    int cells = 1 << l->depth, x = at.i / l->detail, y = at.j / l->detail;
     for (int k = 0; k < 4; k++) {
-        int a = x - (k / 2 && x * l->detail == i), b = y - (k % 2 && y * l->detail == j);
+        int a = x - (k / 2 && x * l->detail == at.i), b = y - (k % 2 && y * l->detail == at.j);
         if (a < 0 || b < 0 || a >= cells || b >= cells) continue;
-        int stride = 1 << (l->depth - leaves->level[(patch * cells + a) * cells + b]);
-        if (i % stride == 0 && j % stride == 0) return true;
+        int stride = 1 << (l->depth - leaves->level[(at.patch * cells + a) * cells + b]);
+        if (at.i % stride == 0 && at.j % stride == 0) return true;
     }
     return false;
 }
