@@ -53,6 +53,8 @@ static void sheet_is_the_surface(const char *name, Push *push, const Leaves *lea
         worst_field = fmax(worst_field, vec_dist(field[v], field_at(&push->field, levels, sheet->place[v])));
         Vec3 n = field_normal(&push->field, root, levels, sheet->place[v]);
         worst_normal = fmax(worst_normal, vec_dist(normal[v], n));
+        Vec3 plain = field_normal(&push->field, root, 0, sheet->place[v]);
+        worst_normal = fmax(worst_normal, vec_dist(lattice_normal(l, root, sheet->place[v]), plain));
     }
     OK(moved == 0, "%s: %d vertices on the root patches, %d beside their leaves' grids (%d differ)", name,
        sheet->nvertices, sheet->nlone, moved);

@@ -190,7 +190,11 @@ static void test_names(void) {
     };
     for (size_t i = 0; i < sizeof hints / sizeof hints[0]; i++) {
         NameHint h = name_hint(hints[i].name);
-        OK(h.side == hints[i].side && h.weight[hints[i].part] >= 0.9, "'%s' is understood", hints[i].name);
+        double own = h.weight[hints[i].part], other = 0;
+        for (int p = 0; p < PART_COUNT; p++)
+            if (p != (int)hints[i].part) other = fmax(other, h.weight[p]);
+        OK(h.side == hints[i].side && own >= 0.9 && own <= 1 && other <= 0.5, "'%s' is understood, and is nothing else",
+           hints[i].name);
     }
     static const char *const not_hands[] = {"LeftHandThumb1", "LeftInHandIndex", "ik_hand_l", "LeftHandEnd",
                                             "HandTipLeft"};

@@ -81,8 +81,6 @@ static double reach_of(const BodyPart *part) {
     double reach = 0;
     for (int i = 0; i < part->nsections; i++) {
         const Section *s = &part->section[i];
-        double x = fabs(s->x) + s->side, z = fabs(s->z) + fmax(s->front, s->back);
-        reach = fmax(reach, fmax(x, z));
         reach = fmax(reach, hypot(s->x, s->z) + fmax(s->side, fmax(s->front, s->back)));
     }
     return reach;
