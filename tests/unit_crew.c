@@ -7,7 +7,7 @@
 
 #include "folder.h"
 #include "hall.h"
-#include "sheet.h"
+#include "wave.h"
 #include "tap.h"
 
 enum { ROUNDS = 200, PIECES = 5 };
@@ -25,7 +25,7 @@ typedef struct {
 /* Some arithmetic, and a mesh in every tenth round. */
 static void piece(void *context, int index, Pen *pen) {
     Work *w = context;
-    Sheet sheet;
+    Wave wave;
     Error e = {0};
     double sum = 0;
     int now = atomic_fetch_add(&w->under_way, 1) + 1;
@@ -38,8 +38,8 @@ static void piece(void *context, int index, Pen *pen) {
         order.name = names[index];
         order.frame = w->round;
         order.bytes = &w->bytes[index];
-        make_sheet(&sheet);
-        if (!press_put(w->press, pen, &order, &sheet.mesh, &e)) w->times[w->round][index] = -1;
+        make_wave(&wave);
+        if (!press_put(w->press, pen, &order, &wave.mesh, &e)) w->times[w->round][index] = -1;
     }
     atomic_fetch_sub(&w->under_way, 1);
 }

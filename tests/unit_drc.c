@@ -7,7 +7,7 @@
 #include "files/drc.h"
 #include "files/obj.h"
 #include "folder.h"
-#include "sheet.h"
+#include "wave.h"
 #include "tap.h"
 
 /* A step is the largest extent, here 1.1 along x and z, cut in 2^bits - 1; floats add a little. */
@@ -58,8 +58,8 @@ static bool same_surface(const Mesh *a, const Mesh *b, double unit, double reach
 }
 
 static void test_round_trip(void) {
-    static Sheet sheet;
-    make_sheet(&sheet);
+    static Wave wave;
+    make_wave(&wave);
     static const struct {
         DrcOptions options;
         double unit;
@@ -80,14 +80,14 @@ static void test_round_trip(void) {
         long long bytes = 0;
         struct stat info;
         const char *path = in_folder("sheet.drc");
-        bool good = drc_write(&writer, path, &sheet.mesh, cases[k].unit, &cases[k].options, &bytes, &e) &&
+        bool good = drc_write(&writer, path, &wave.mesh, cases[k].unit, &cases[k].options, &bytes, &e) &&
                     stat(path, &info) == 0 && info.st_size == bytes && drc_read(path, &arena, &m, &e);
-        good = good && same_surface(&sheet.mesh, &m, cases[k].unit, tolerance(cases[k].bits, cases[k].unit));
+        good = good && same_surface(&wave.mesh, &m, cases[k].unit, tolerance(cases[k].bits, cases[k].unit));
         if (!OK(good, "the same triangles within half a step: %s, %lld bytes", cases[k].what, bytes))
             printf("# %s\n", e.text);
         if (cases[k].options.keep_order)
-            OK(memcmp(m.triangle, sheet.triangle, sizeof sheet.triangle) == 0 &&
-                   distance(m.position[VERTICES - 1], sheet.position[VERTICES - 1]) < tolerance(16, 1),
+            OK(memcmp(m.triangle, wave.triangle, sizeof wave.triangle) == 0 &&
+                   distance(m.position[VERTICES - 1], wave.position[VERTICES - 1]) < tolerance(16, 1),
                "vertices and triangles stay in order");
         arena_free(&arena);
     }
@@ -102,14 +102,14 @@ static size_t load(const char *path, char *data, size_t n) {
 
 /* A writer that has written much else, and a new one. */
 static void test_same_bytes(void) {
-    static Sheet sheet;
+    static Wave wave;
     static char first[20000], second[20000];
-    make_sheet(&sheet);
+    make_wave(&wave);
     Error e = {0};
     DrcOptions options = {0};
     DrcWriter fresh = {0};
-    bool good = drc_write(&writer, in_folder("a.drc"), &sheet.mesh, 1, &options, NULL, &e) &&
-                drc_write(&fresh, in_folder("b.drc"), &sheet.mesh, 1, &options, NULL, &e);
+    bool good = drc_write(&writer, in_folder("a.drc"), &wave.mesh, 1, &options, NULL, &e) &&
+                drc_write(&fresh, in_folder("b.drc"), &wave.mesh, 1, &options, NULL, &e);
     size_t n = load(in_folder("a.drc"), first, sizeof first);
     OK(good && n > 100 && n == load(in_folder("b.drc"), second, sizeof second) && memcmp(first, second, n) == 0,
        "the same mesh gives the same bytes");
@@ -117,16 +117,16 @@ static void test_same_bytes(void) {
 }
 
 static void test_refusals(void) {
-    static Sheet sheet;
-    make_sheet(&sheet);
+    static Wave wave;
+    make_wave(&wave);
     Error e = {0};
     Arena arena = {0};
-    Mesh m = sheet.mesh;
+    Mesh m = wave.mesh;
     DrcOptions options = {0};
-    sheet.position[7].y = INFINITY;
+    wave.position[7].y = INFINITY;
     OK(!drc_write(&writer, in_folder("x.drc"), &m, 1, &options, NULL, &e) && e.kind == ERR_INTERNAL,
        "a number that is not finite is refused: %s", e.text);
-    make_sheet(&sheet);
+    make_wave(&wave);
     e = (Error){0};
     OK(!drc_write(&writer, in_folder("x.drc"), &m, 1, &(DrcOptions){.position_bits = 31}, NULL, &e) &&
            e.kind == ERR_INTERNAL,
@@ -175,13 +175,13 @@ static bool as_a_new_one(const Mesh *m, const DrcOptions *options) {
 
 /* Connectivities come again, with other points, other attributes, other speeds, more than are kept. */
 static void test_again(void) {
-    static Sheet sheet;
+    static Wave wave;
     int wrong = 0;
     for (int k = 0; k < 120; k++) {
-        make_sheet(&sheet);
-        Mesh m = sheet.mesh;
+        make_wave(&wave);
+        Mesh m = wave.mesh;
         DrcOptions options = {.speed = k % 4 ? 0 : 1 + k / 4 % 11, .keep_order = k % 17 == 0};
-        for (int v = 0; v < VERTICES; v++) sheet.position[v].y += 0.01 * sin(k + 0.3 * v);
+        for (int v = 0; v < VERTICES; v++) wave.position[v].y += 0.01 * sin(k + 0.3 * v);
         m.ntriangles -= k * 7 % 11; /* less than 11, more than 8: some are forgotten in between */
         m.group[2].count = m.ntriangles - 100;
         if (k % 3 == 1) m.u = m.w = NULL;

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cloth.h"
+#include "specimen.h"
 #include "dice.h"
 #include "dress/border.h"
 
@@ -22,7 +22,7 @@ static Pose random_pose(const Figure *f) {
     return p;
 }
 
-static void shared_points_are_equal(Cloth *s, const char *name) {
+static void shared_points_are_equal(Specimen *s, const char *name) {
     Pose pose = random_pose(&s->scene.figure);
     follow_pose(&s->follower, &pose, s->root);
     int shared = 0, different = 0;
@@ -38,7 +38,7 @@ static void shared_points_are_equal(Cloth *s, const char *name) {
 }
 
 /* Places on shared edges get the same displacement from either patch, and no slope across. */
-static void field_is_smooth(Cloth *s, const char *name) {
+static void field_is_smooth(Specimen *s, const char *name) {
     const Lattice *l = &s->lattice;
     double gap = 0, slope = 0;
     Vec3 *seen = calloc((size_t)l->nplaces, sizeof *seen), *d[LATTICE_LEVELS];
@@ -113,16 +113,7 @@ static int border_loops(const Sheet *s, bool *sound) {
     return loops;
 }
 
-static void split_at_random(Cloth *s) {
-    leaves_fill(&s->leaves, 0);
-    for (int k = 0; k < s->fit.npatches; k++) {
-        int level = (int)(dice_unit() * (DEPTH + 1)), cells = 1 << level;
-        leaves_split(&s->leaves, (int)(dice_unit() * s->fit.npatches), level, (int)(dice_unit() * cells),
-                     (int)(dice_unit() * cells));
-    }
-}
-
-static double smallest_area(const Cloth *s) {
+static double smallest_area(const Specimen *s) {
     double least = INFINITY;
     for (int t = 0; t < s->sheet.ntriangles; t++) {
         Vec3 x[3];
@@ -136,7 +127,7 @@ static double smallest_area(const Cloth *s) {
     return least;
 }
 
-static void meshes_are_watertight(Cloth *s, const char *name, int openings) {
+static void meshes_are_watertight(Specimen *s, const char *name, int openings) {
     bool all_sound = true, all_loops = true, all_areas = true, leaves_add_up = true;
     Pose rest = figure_rest_pose();
     follow_pose(&s->follower, &rest, s->root);
@@ -144,7 +135,7 @@ static void meshes_are_watertight(Cloth *s, const char *name, int openings) {
         bool sound;
         if (k == 0) leaves_fill(&s->leaves, 0);
         else if (k == 1) leaves_fill(&s->leaves, DEPTH);
-        else split_at_random(s);
+        else specimen_split_at_random(s);
         tessellate(&s->sheet, &s->leaves);
         int loops = border_loops(&s->sheet, &sound);
         all_sound = all_sound && sound;
@@ -160,7 +151,7 @@ static void meshes_are_watertight(Cloth *s, const char *name, int openings) {
 }
 
 /* Distance of a point from the parts that a patch collides with, in the canonical stance. */
-static double from_body(const Cloth *s, const FitPatch *patch, Vec3 x) {
+static double from_body(const Specimen *s, const FitPatch *patch, Vec3 x) {
     double nearest = INFINITY;
     for (int b = 0; b < s->scene.body.nparts; b++) {
         const BodyPart *part = &s->scene.body.part[b];
@@ -170,7 +161,7 @@ static double from_body(const Cloth *s, const FitPatch *patch, Vec3 x) {
     return nearest;
 }
 
-static void outward(Cloth *s, const char *name) {
+static void outward(Specimen *s, const char *name) {
     Pose rest = figure_rest_pose();
     follow_pose(&s->follower, &rest, s->root);
     int inwards = 0;
@@ -184,7 +175,7 @@ static void outward(Cloth *s, const char *name) {
 }
 
 /* Dressed in the canonical stance: nothing intersects, nothing is far away. */
-static void rest_is_clear(Cloth *s, const char *name) {
+static void rest_is_clear(Specimen *s, const char *name) {
     Dresser *d = scene_dresser(&s->scene, (DressOptions){0});
     Mesh mesh;
     FrameStats stats;
@@ -201,7 +192,7 @@ static void rest_is_clear(Cloth *s, const char *name) {
 }
 
 /* The borders of a neckline part at an angle: not even within 5 mm do they run side by side. */
-static void neckline_opens(Cloth *s) {
+static void neckline_opens(Specimen *s) {
     Arena *arena = &s->scene.arena;
     int cracks = 0, wrong = 0;
     for (int round = 0; round < 20; round++) {
@@ -227,8 +218,8 @@ static void neckline_opens(Cloth *s) {
 int main(void) {
     static const int openings[NSHIPPED] = {2, 2, 3, 4};
     for (int k = 0; k < NSHIPPED; k++) {
-        static Cloth c;
-        cloth_open(&c, SHIPPED[k], DETAIL, DEPTH);
+        static Specimen c;
+        specimen_open(&c, SHIPPED[k], DETAIL, DEPTH);
         shared_points_are_equal(&c, SHIPPED[k]);
         field_is_smooth(&c, SHIPPED[k]);
         meshes_are_watertight(&c, SHIPPED[k], openings[k]);

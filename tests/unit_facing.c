@@ -2,7 +2,7 @@
 #include "geometry/facing.h"
 
 #include "geometry/cone.h"
-#include "sheet.h"
+#include "wave.h"
 #include "dice.h"
 #include "tap.h"
 
@@ -61,20 +61,20 @@ static void test_fold_by_hand(void) {
     OK(cone_axis(both, 2, &axis) <= 0, "and none where the fold is flat");
 }
 
-/* A sheet, every seventh vertex of which is pulled out by hand. */
+/* A wavy sheet, every seventh vertex of which is pulled out by hand. */
 typedef struct {
-    Sheet sheet;
+    Wave wave;
     Vec3 normal[2 * VERTICES];
     Mesh mesh;
 } Bent;
 
 static void bend(Bent *b) {
-    make_sheet(&b->sheet);
-    b->mesh = b->sheet.mesh;
+    make_wave(&b->wave);
+    b->mesh = b->wave.mesh;
     b->mesh.normal = b->normal;
     for (int v = 0; v < VERTICES; v++) {
-        b->normal[v] = b->sheet.normal[v];
-        if (v % 7 == 0) b->sheet.position[v] = vec_mad(b->sheet.position[v], random_direction(), 0.6 * dice_unit());
+        b->normal[v] = b->wave.normal[v];
+        if (v % 7 == 0) b->wave.position[v] = vec_mad(b->wave.position[v], random_direction(), 0.6 * dice_unit());
     }
 }
 
@@ -104,7 +104,7 @@ static int dark_corners(const Mesh *m) {
     return crease == end ? dark : -1;
 }
 
-static void test_bent_sheet(void) {
+static void test_bent_wave(void) {
     static Bent b;
     Vec3 facet[FAN];
     Arena arena = {0};
@@ -116,7 +116,7 @@ static void test_bent_sheet(void) {
     facing_mend(&facing, &b.mesh);
     for (int v = 0; v < VERTICES; v++) {
         int n = facets_round(&b.mesh, v, facet);
-        bent += least(b.sheet.normal[v], facet, n) < 0;
+        bent += least(b.wave.normal[v], facet, n) < 0;
         if (least(b.normal[v], facet, n) > 0) continue;
         away++;
         blind += best_of_sphere(facet, n) > 0.02;
@@ -133,6 +133,6 @@ static void test_bent_sheet(void) {
 int main(void) {
     test_cone();
     test_fold_by_hand();
-    test_bent_sheet();
+    test_bent_wave();
     return tap_done();
 }

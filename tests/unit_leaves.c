@@ -1,18 +1,9 @@
 /* Leaves as patches of their own: they are the surface that the mesh samples, control points and all. */
 #include <string.h>
 
-#include "cloth.h"
+#include "specimen.h"
 #include "dice.h"
 #include "dress/push.h"
-
-static void split_at_random(Leaves *leaves, int npatches) {
-    leaves_fill(leaves, 0);
-    for (int k = 0; k < npatches; k++) {
-        int level = (int)(dice_unit() * (leaves->lattice->depth + 1)), cells = 1 << level;
-        int a = (int)(dice_unit() * cells), b = (int)(dice_unit() * cells);
-        leaves_split(leaves, (int)(dice_unit() * npatches), level, a, b);
-    }
-}
 
 static bool is_open(const Leaves *leaves, int level, int vertex) {
     const LatticeLevel *at = &leaves->lattice->level[level];
@@ -63,9 +54,9 @@ static void sheet_is_the_surface(const char *name, Push *push, const Leaves *lea
 }
 
 static void leaves_are_the_surface(const char *name) {
-    Cloth c;
+    Specimen c;
     Push push;
-    cloth_open(&c, name, 4, 3);
+    specimen_open(&c, name, 4, 3);
     Scene *s = &c.scene;
     Leaves *leaves = &c.leaves;
     const Lattice *lattice = &c.lattice;
@@ -75,7 +66,7 @@ static void leaves_are_the_surface(const char *name) {
     need(s, push_reserve(&push, lattice, &s->arena, &s->error));
     for (int p = 0; p < npatches; p++)
         for (int k = 0; k < 16; k++) root[p].p[k / 4][k % 4] = dice_point();
-    split_at_random(leaves, npatches);
+    specimen_split_at_random(&c);
     for (int level = 0; level <= lattice->depth; level++)
         for (int v = 0; v < lattice->level[level].count; v++)
             if (is_open(leaves, level, v)) push.field.displacement[push.field.start[level] + v] = dice_point();

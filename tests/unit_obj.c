@@ -6,7 +6,7 @@
 
 #include "files/obj.h"
 #include "folder.h"
-#include "sheet.h"
+#include "wave.h"
 #include "tap.h"
 
 /* The text as fprintf writes it. */
@@ -46,14 +46,14 @@ static bool same_text(ObjWriter *w, const Mesh *m, double unit) {
 }
 
 static void test_text(Vectors vectors) {
-    static Sheet sheet;
+    static Wave wave;
     static const double units[] = {1, 100, 39.37007874015748, 1e6};
     ObjWriter w = {.vectors = vectors};
     bool good = true;
-    make_sheet(&sheet);
+    make_wave(&wave);
     for (int round = 0; round < 3; round++)
         for (size_t k = 0; k < 4; k++) {
-            Mesh m = sheet.mesh;
+            Mesh m = wave.mesh;
             if (k & 1) m.u = m.w = NULL;
             if (k & 2) m.normal = NULL, m.ncreases = m.nextra = 0;
             good = good && same_text(&w, &m, units[k]);
@@ -65,44 +65,44 @@ static void test_text(Vectors vectors) {
 
 /* Parameters and faces are kept; whatever they depend on must tell. */
 static void test_what_changes(void) {
-    static Sheet sheet;
+    static Wave wave;
     ObjWriter w = {0};
-    make_sheet(&sheet);
-    Mesh *m = &sheet.mesh;
+    make_wave(&wave);
+    Mesh *m = &wave.mesh;
     bool good = same_text(&w, m, 1) && same_text(&w, m, 1);
-    sheet.position[7].y += 1;
-    sheet.normal[8].x = 0.25;
+    wave.position[7].y += 1;
+    wave.normal[8].x = 0.25;
     good = good && same_text(&w, m, 1);
     OK(good, "the same faces once more, round other points");
-    sheet.w[VERTICES - 1] = 0.5;
+    wave.w[VERTICES - 1] = 0.5;
     OK(same_text(&w, m, 1), "another parameter");
-    sheet.triangle[TRIANGLES - 1].v[2]--;
+    wave.triangle[TRIANGLES - 1].v[2]--;
     OK(same_text(&w, m, 1), "another corner");
-    sheet.crease[2].corner++;
+    wave.crease[2].corner++;
     OK(same_text(&w, m, 1), "another crease");
     m->ntriangles--;
-    sheet.group[2].count--;
+    wave.group[2].count--;
     OK(same_text(&w, m, 1), "a triangle less");
     size_t before = w.size;
-    sheet.group[2].name = "upright";
+    wave.group[2].name = "upright";
     Error e = {0};
     OK(obj_format(&w, m, 1, &e) && w.size == before + 2, "another name");
     obj_writer_free(&w);
 }
 
 static void test_obj_write(void) {
-    static Sheet sheet;
+    static Wave wave;
     ObjWriter w = {0};
     Error e = {0};
-    make_sheet(&sheet);
-    if (!OK(obj_format(&w, &sheet.mesh, 1, &e), "a mesh is a text")) return;
+    make_wave(&wave);
+    if (!OK(obj_format(&w, &wave.mesh, 1, &e), "a mesh is a text")) return;
     long long bytes = 0;
     const char *text = w.text;
     const char *path = in_folder("sheet.obj");
-    OK(obj_write(&w, path, &sheet.mesh, 1, &bytes, &e), "a file is written");
+    OK(obj_write(&w, path, &wave.mesh, 1, &bytes, &e), "a file is written");
     struct stat info;
     OK(stat(path, &info) == 0 && info.st_size == bytes && w.text == text, "its size is told, the memory is used again");
-    Mesh bad = sheet.mesh;
+    Mesh bad = wave.mesh;
     Vec3 nowhere[VERTICES] = {{NAN, 0, 0}};
     bad.position = nowhere;
     OK(!obj_write(&w, path, &bad, 1, NULL, &e) && e.kind == ERR_INTERNAL, "a number that is not finite is refused");
@@ -123,13 +123,13 @@ static bool same_mesh(const Mesh *a, const Mesh *b) {
 }
 
 static void test_obj_read(void) {
-    static Sheet sheet;
-    make_sheet(&sheet);
-    for (int i = 0; i < VERTICES; i++) sheet.position[i].z = round(1e6 * sheet.position[i].z) / 1e6;
+    static Wave wave;
+    make_wave(&wave);
+    for (int i = 0; i < VERTICES; i++) wave.position[i].z = round(1e6 * wave.position[i].z) / 1e6;
     Arena arena = {0};
     Error e = {0};
     Mesh m;
-    OK(obj_read(in_folder("sheet.obj"), &arena, &m, &e) && same_mesh(&m, &sheet.mesh),
+    OK(obj_read(in_folder("sheet.obj"), &arena, &m, &e) && same_mesh(&m, &wave.mesh),
        "positions come back exactly, the rest too");
     OK(m.ngroups == 2 && strcmp(m.group[0].name, "left_back") == 0 && m.group[0].count == 100 &&
            m.group[1].first == 100 && m.group[1].count == TRIANGLES - 100,

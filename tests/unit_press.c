@@ -6,7 +6,7 @@
 
 #include "folder.h"
 #include "hall.h"
-#include "sheet.h"
+#include "wave.h"
 #include "tap.h"
 
 enum { FRAMES = 60 };
@@ -15,19 +15,19 @@ typedef struct { long long bytes; StatsRow row[2]; PressTally tally; Error error
 
 /* Hands over meshes that differ, each destroyed at once, and waits. */
 static void put_all(Press *press, const char *where, int first, Outcome *out) {
-    static Sheet sheet;
+    static Wave wave;
     Settings settings = {.formats = FORMAT_OBJ | FORMAT_DRC};
     Pen pen = {0};
     *out = (Outcome){.all_put = true};
     PressOrder order = {&settings, where, "sheet", 0, 1, &out->bytes, out->row, 2, &out->tally};
-    make_sheet(&sheet);
+    make_wave(&wave);
     for (int i = 0; i < FRAMES && out->all_put; i++) {
         order.frame = first + i;
-        for (int v = 0; v < VERTICES; v++) sheet.position[v].y = 0.001 * order.frame;
-        sheet.crease[0].normal = VERTICES;
-        out->all_put = press_put(press, &pen, &order, &sheet.mesh, &out->error);
-        for (int v = 0; v < VERTICES; v++) sheet.position[v].y = 1e6;
-        sheet.crease[0].normal = 1;
+        for (int v = 0; v < VERTICES; v++) wave.position[v].y = 0.001 * order.frame;
+        wave.crease[0].normal = VERTICES;
+        out->all_put = press_put(press, &pen, &order, &wave.mesh, &out->error);
+        for (int v = 0; v < VERTICES; v++) wave.position[v].y = 1e6;
+        wave.crease[0].normal = 1;
     }
     press_finish(press, &pen, &out->tally, &out->error);
     pen_free(&pen);

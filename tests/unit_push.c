@@ -2,7 +2,7 @@
    must not change. */
 #include <string.h>
 
-#include "cloth.h"
+#include "specimen.h"
 #include "dress/push.h"
 
 static int residual(const FrameStats *s) { return s->residual_edges + s->residual_cloth + s->inside; }
@@ -126,10 +126,10 @@ static double most_needless(const Push *p, const BodyFrame *body) {
 
 /* Cloth that was pushed touches what pushed it, though its neighbours were pushed after it and took it along. */
 static void nothing_is_needless(const char *name) {
-    Cloth c;
+    Specimen c;
     static Push push;
     PushResult result = {0};
-    cloth_open(&c, name, 5, 2);
+    specimen_open(&c, name, 5, 2);
     Scene *s = &c.scene;
     need(s, push_reserve(&push, &c.lattice, &s->arena, &s->error));
     escape_bind(&push.escape, c.root);

@@ -28,7 +28,7 @@ static const double ROUNDING = 1e-5;
 enum { LONE_LOOK = 8, ASTRAY_MOST = 3 };
 
 /* A source frame: the joints in the file's units and axes, and the figure's pose. */
-typedef struct { int frame; Rigid *world; Pose pose; bool is_astray; } Sample;
+typedef struct { int frame; Rigid *world; Pose pose; bool is_astray; } SourceFrame;
 
 struct Take {
     const Motion *motion;
@@ -38,8 +38,8 @@ struct Take {
     double rate;               /* 0: the source's */
     int number, last, step;    /* of the next frame, from 1 */
     bool begun;
-    Sample behind, ahead;      /* the window: ahead.frame == behind.frame + 1, from 0 */
-    Sample probe;              /* a frame farther ahead */
+    SourceFrame behind, ahead; /* the window: ahead.frame == behind.frame + 1, from 0 */
+    SourceFrame probe;         /* a frame farther ahead */
     bool within;               /* a jump between `behind` and `ahead`, */
     bool cut;                  /* and nothing is carried across; */
     bool passed;               /* the same between the frame that was last given out and `behind` */
@@ -51,7 +51,7 @@ struct Take {
     Jumps jumps;
 };
 
-static bool load(Take *t, Sample *s, int frame, Error *e) {
+static bool load(Take *t, SourceFrame *s, int frame, Error *e) {
     s->frame = frame;
     if (!motion_row(t->reader, frame, t->row, e)) return false;
     skeleton_pose(&t->motion->skeleton, t->row, s->world);
@@ -61,7 +61,7 @@ static bool load(Take *t, Sample *s, int frame, Error *e) {
 
 /* Moves the window one frame on. */
 static bool shift(Take *t, Error *e) {
-    Sample swap = t->behind;
+    SourceFrame swap = t->behind;
     t->behind = t->ahead;
     t->ahead = swap;
     return load(t, &t->ahead, t->behind.frame + 1, e);
@@ -210,7 +210,7 @@ static void tie_to_last(Take *t, bool is_astray, TakeFrame *out) {
 static bool give_source(Take *t, int frame, TakeFrame *out, Error *e) {
     if (!reach(t, frame, frame, e)) return false;
     bool is_ahead = t->ahead.frame == frame;
-    const Sample *s = is_ahead ? &t->ahead : &t->behind;
+    const SourceFrame *s = is_ahead ? &t->ahead : &t->behind;
     out->pose = s->pose;
     if (is_ahead) {
         t->passed = t->passed || t->cut;

@@ -1,6 +1,6 @@
 /* A small mesh for the tests of files. */
-#ifndef TESTS_SHEET_H
-#define TESTS_SHEET_H
+#ifndef TESTS_WAVE_H
+#define TESTS_WAVE_H
 
 #include <math.h>
 
@@ -15,11 +15,11 @@ typedef struct {
     MeshGroup group[3];
     Crease crease[3];
     Mesh mesh;
-} Sheet;
+} Wave;
 
 /* A wavy sheet in two groups (and one that is empty), snapped like a written mesh. Three corners, the first one
    of the first vertex among them, have normals of their own. */
-static inline void make_sheet(Sheet *s) {
+static inline void make_wave(Wave *s) {
     s->mesh = (Mesh){.nvertices = VERTICES, .ntriangles = TRIANGLES, .ngroups = 3, .position = s->position,
                      .normal = s->normal, .u = s->u, .w = s->w, .triangle = s->triangle, .group = s->group,
                      .crease = s->crease, .ncreases = 3, .nextra = 2};

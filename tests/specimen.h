@@ -1,7 +1,8 @@
 /* A shipped garment on the reference figure, and what it is made of, for the unit programs that look inside. */
-#ifndef TESTS_CLOTH_H
-#define TESTS_CLOTH_H
+#ifndef TESTS_SPECIMEN_H
+#define TESTS_SPECIMEN_H
 
+#include "dice.h"
 #include "dress/follow.h"
 #include "dress/tessellate.h"
 #include "scene.h"
@@ -15,10 +16,10 @@ typedef struct {
     Leaves leaves;
     Sheet sheet;
     Patch *root;
-} Cloth;
+} Specimen;
 
 /* Lies on the garment's root patches in the bind pose, split to the same depth everywhere. */
-static inline void cloth_open(Cloth *c, const char *garment, int detail, int depth) {
+static inline void specimen_open(Specimen *c, const char *garment, int detail, int depth) {
     Scene *s = &c->scene;
     Pose rest = figure_rest_pose();
     scene_open(s, garment);
@@ -32,6 +33,16 @@ static inline void cloth_open(Cloth *c, const char *garment, int detail, int dep
     follow_pose(&c->follower, &rest, c->root);
     leaves_fill(&c->leaves, depth);
     tessellate(&c->sheet, &c->leaves);
+}
+
+/* Splits about as many cells as there are patches, anywhere and to any level. */
+static inline void specimen_split_at_random(Specimen *c) {
+    leaves_fill(&c->leaves, 0);
+    for (int k = 0; k < c->fit.npatches; k++) {
+        int level = (int)(dice_unit() * (c->lattice.depth + 1)), cells = 1 << level;
+        int a = (int)(dice_unit() * cells), b = (int)(dice_unit() * cells);
+        leaves_split(&c->leaves, (int)(dice_unit() * c->fit.npatches), level, a, b);
+    }
 }
 
 #endif
