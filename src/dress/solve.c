@@ -7,8 +7,8 @@
 
 #include "base/clock.h"
 
-static const double FAR = 0.65;     /* of the cap: cloth that an outcome with something left has thrown farther than that */
-static const double CLOSER = 0.6;   /* is laid anew once that share of the way does as well */
+static const double FAR = 0.65;     /* of the cap: cloth thrown farther than that, while something was left, is laid */
+static const double CLOSER = 0.6;   /* anew, and stays there if that share of the way does as well */
 static const double THROWN = 2;     /* residuals of cloth at the cap count 1 + this */
 static const double HOPELESS = 0.03;/* residuals per edge of the mesh: no attempt has ever mended that many */
 /* How far a level is moved against the next finer one: in a tight garment less, so that a place that is pinched
