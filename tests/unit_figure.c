@@ -289,6 +289,23 @@ static void test_crouch(void) {
     rig_close(&found);
 }
 
+/* The same crouch with a T-pose in front: that frame tells as much as a human zero pose. */
+static void test_pose_in_front(void) {
+    Rig told, found;
+    if (!OK(rig_open(&told, "tests/data/figure/crouch_tpose.bvh", NULL) &&
+                rig_open(&found, "tests/data/figure/crouch_calibrated.bvh", NULL), "calibrated crouchers open")) return;
+    double most = 0;
+    for (int frame = 0; frame < told.motion.nframes; frame++) {
+        Pose p = rig_pose(&told, frame), q = rig_pose(&found, frame + 1);
+        for (int r = 0; r < ROLE_COUNT; r++) most = fmax(most, turned(p.bone[r].r, q.bone[r].r));
+    }
+    OK(strcmp(found.figure.rest, "T-pose in frame 1") == 0, "rest: %s", found.figure.rest);
+    OK(most < 0.5, "behind a T-pose every bone turns as with a human zero pose (%.2f degrees)", most);
+    NEAR(found.figure.height, told.figure.height, 1e-4, "and the stature is the same");
+    rig_close(&told);
+    rig_close(&found);
+}
+
 /* Feet lie along the shins of one who kneels, and look back: a moment of standing tells where they point. */
 static void test_kneel(void) {
     Rig told, found;
@@ -480,6 +497,7 @@ int main(void) {
     test_lying();
     test_toppled();
     test_crouch();
+    test_pose_in_front();
     test_kneel();
     test_lifted_thigh();
     for (int i = 0; i < (int)(sizeof real / sizeof real[0]); i++) test_real(i);

@@ -11,6 +11,8 @@ typedef struct {
     int count, njoints;
     const int *frame;   /* which frame of the motion each one is */
     const Rigid *world; /* count x njoints, file units and axes */
+    const Rigid *first; /* the motion's first frame */
+    const Rigid *zero;  /* and the zero pose: no turns, bones as the OFFSETs say */
 } Sample;
 
 /* At most `wanted` frames, wanted <= SAMPLE_FRAMES_MAX. Long motions give their first frame, often a T-pose that is no

@@ -1,9 +1,9 @@
 /* Binding: how the canonical bones sit on the joints' frames.
 
-   Where the zero pose is a human pose (T, A or hanging arms) it answers for the whole torso at
-   once: all joint frames are parallel there. Where bones merely lie along an axis, frames of
-   the motion answer: in those in which the performer stands straightest, up is up, and the
-   hip and shoulder lines give left; feet are flat where they stand. Who crouches or lies for
+   Where the zero pose is a human pose (T, A or hanging arms), or a T-pose stands in front of the
+   take, it answers for the whole torso at once (rest.c). Where bones merely lie along an axis,
+   frames of the motion answer: in those in which the performer stands straightest, up is up, and
+   the hip and shoulder lines give left; feet are flat where they stand. Who crouches or lies for
    the whole take never stands straight: there the skeleton itself tells what is up. */
 #include "figure/bind.h"
 
@@ -258,12 +258,14 @@ static Vec3 up_of_sole(const Binder *b, Role foot, Vec3 along) {
 
 /* From the zero pose, where soles lie flat. Where the legs stand astride, flat only fore and aft; and some solvers turn
    feet upside down, which the shin knows. */
-static Mat3 foot_from_rest(const Binder *b, Role foot, Mat3 rest) {
+static Mat3 foot_from_rest(const Binder *b, Role foot, const Rest *rest) {
     static const double ASTRIDE = 0.12; /* sine */
-    Vec3 along = rest_bone(b->skeleton, b->f, foot), up = mat_column(rest, 1);
+    int joint = b->f->roles.joint[foot];
+    Mat3 flat = rest_bind(rest, joint);
+    Vec3 along = mat_apply(mat_transpose(rest->pose[joint].r), rest_bone(rest, b->f, foot)), up = mat_column(flat, 1);
     double fall = -vec_dot(along, up);
-    if (fabs(fall) > 0.87 || vec_dot(along, mat_column(rest, 2)) <= 0) return rest;
-    bool astride = fabs(vec_dot(rest_bone(b->skeleton, b->f, foot - 1), mat_column(rest, 0))) > ASTRIDE;
+    if (fabs(fall) > 0.87 || vec_dot(along, mat_column(flat, 2)) <= 0) return flat;
+    bool astride = fabs(vec_dot(rest_bone(rest, b->f, foot - 1), mat_column(rest->frame, 0))) > ASTRIDE;
     bool flipped = vec_dot(vec_cross(up, along), vec_cross(up_the_shin(b, foot, along), along)) < 0;
     return sole(along, astride || flipped ? up_of_sole(b, foot, along) : up, asin(fall));
 }
@@ -291,7 +293,11 @@ static void bind_toe(const Binder *b, Role foot, const Rest *rest) {
     int joint = f->roles.joint[toe], frames[SAMPLE_BEST_MAX];
     if (joint < 0 || f->toward[foot] < 0) return;
     f->bound[toe] = true;
-    if (rest->human) { f->bind[toe] = f->bind[foot]; return; }
+    if (rest->human) {
+        Mat3 flat = mat_mul(rest->pose[f->roles.joint[foot]].r, f->bind[foot].r);
+        f->bind[toe].r = mat_mul(mat_transpose(rest->pose[joint].r), flat);
+        return;
+    }
     Mean mean = {{0, 0, 0, 0}, 0};
     int n = standing(b, foot, frames);
     for (int i = 0; i < n; i++) {
@@ -306,7 +312,7 @@ static void bind_foot(const Binder *b, Role foot, const Rest *rest, const int *u
     int joint = f->roles.joint[foot];
     if (joint < 0) return;
     Mat3 *bind = &f->bind[foot].r;
-    if (rest->human) *bind = foot_from_rest(b, foot, rest->frame);
+    if (rest->human) *bind = foot_from_rest(b, foot, rest);
     else if (!foot_from_frames(b, foot, bind)) *bind = bind_like(b, upright, n, joint, ROLE_PELVIS);
     f->bound[foot] = true;
     bind_toe(b, foot, rest);
@@ -350,9 +356,10 @@ void figure_bind(const Skeleton *skeleton, const Sample *sample, const Rest *res
     Mat3 level = bind_from_line(&b, upright, n, ROLE_PELVIS, ROLE_RIGHT_THIGH, ROLE_LEFT_THIGH, 0.5);
     double known = known_pelvis(&b, upright, n);
     if (rest->human) {
-        f->bind[ROLE_PELVIS].r = pelvis_from_rest(rest->frame, level, known);
-        f->bind[ROLE_CHEST].r = rest->frame;
-        if (j[ROLE_HEAD] >= 0) f->bind[ROLE_HEAD].r = head_from_rest(&b, upright, n, rest->frame);
+        f->bind[ROLE_PELVIS].r = pelvis_from_rest(rest_bind(rest, j[ROLE_PELVIS]), level, known);
+        f->bind[ROLE_CHEST].r = rest_bind(rest, j[ROLE_CHEST]);
+        if (j[ROLE_HEAD] >= 0)
+            f->bind[ROLE_HEAD].r = head_from_rest(&b, upright, n, rest_bind(rest, j[ROLE_HEAD]));
     } else {
         Mat3 chest = bind_from_line(&b, upright, n, ROLE_CHEST, ROLE_RIGHT_UPPER_ARM, ROLE_LEFT_UPPER_ARM, 0);
         f->bind[ROLE_PELVIS].r = pelvis_from_bones(&b, level, known);

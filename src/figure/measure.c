@@ -92,7 +92,7 @@ static double sane(double measured, double usual, double low, double high) {
 
 /* Hips to shoulders with a straight back: in a human zero pose, unless the frames say quite
    another length; else in the straighter frames. */
-static double torso_length(const Skeleton *skeleton, const Sample *s, const Rest *rest, const Roles *r) {
+static double torso_length(const Sample *s, const Rest *rest, const Roles *r) {
     const int *j = r->joint;
     double d[SAMPLE_FRAMES_MAX];
     for (int f = 0; f < s->count; f++)
@@ -101,21 +101,21 @@ static double torso_length(const Skeleton *skeleton, const Sample *s, const Rest
     qsort(d, (size_t)s->count, sizeof d[0], compare);
     double moving = d[(int)(0.75 * (s->count - 1))];
     if (!rest->human) return moving;
-    Vec3 hips = vec_mid(rest_place(skeleton, j[ROLE_LEFT_THIGH]), rest_place(skeleton, j[ROLE_RIGHT_THIGH]));
-    Vec3 arms = vec_mid(rest_place(skeleton, j[ROLE_LEFT_UPPER_ARM]), rest_place(skeleton, j[ROLE_RIGHT_UPPER_ARM]));
+    Vec3 hips = vec_mid(rest_place(rest, j[ROLE_LEFT_THIGH]), rest_place(rest, j[ROLE_RIGHT_THIGH]));
+    Vec3 arms = vec_mid(rest_place(rest, j[ROLE_LEFT_UPPER_ARM]), rest_place(rest, j[ROLE_RIGHT_UPPER_ARM]));
     return sane(vec_dist(hips, arms), moving, 0.85, 1.15);
 }
 
 /* Height of the ankle over the lowest point of the foot where the foot is flat: in a human
    zero pose, else in the frames in which it stands. Negative where the foot has no end. */
-static double ankle_height(const Skeleton *skeleton, const Sample *s, const Rest *rest, const Figure *f, Role foot) {
+static double ankle_height(const Sample *s, const Rest *rest, const Figure *f, Role foot) {
     int ankle = f->roles.joint[foot], tip = f->toward[foot], toe = f->roles.joint[foot + 1], frames[SAMPLE_BEST_MAX];
     if (ankle < 0 || tip < 0) return -1;
     if (toe < 0) toe = tip;
     if (rest->human) {
-        Vec3 up = mat_column(rest->frame, 1), from = rest_place(skeleton, ankle);
-        return fmax(vec_dot(up, vec_sub(from, rest_place(skeleton, tip))),
-                    vec_dot(up, vec_sub(from, rest_place(skeleton, toe))));
+        Vec3 up = mat_column(rest->frame, 1), from = rest_place(rest, ankle);
+        return fmax(vec_dot(up, vec_sub(from, rest_place(rest, tip))),
+                    vec_dot(up, vec_sub(from, rest_place(rest, toe))));
     }
     double leg = sample_distance(s, f->roles.joint[foot - 2], f->roles.joint[foot - 1]) +
                  sample_distance(s, f->roles.joint[foot - 1], ankle);
@@ -211,16 +211,16 @@ static void find_ends(const Skeleton *skeleton, const Sample *s, Figure *f) {
     find_fingertip(skeleton, s, f, ROLE_RIGHT_HAND);
 }
 
-static Lengths measure_lengths(const Skeleton *skeleton, const Sample *s, const Rest *rest, const Figure *f) {
+static Lengths measure_lengths(const Sample *s, const Rest *rest, const Figure *f) {
     const int *j = f->roles.joint;
-    double left = ankle_height(skeleton, s, rest, f, ROLE_LEFT_FOOT);
-    double right = ankle_height(skeleton, s, rest, f, ROLE_RIGHT_FOOT);
+    double left = ankle_height(s, rest, f, ROLE_LEFT_FOOT);
+    double right = ankle_height(s, rest, f, ROLE_RIGHT_FOOT);
     return (Lengths){
         .hips = distance_at(s, 0.5, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]),
         .thigh = bone_length(s, f, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH),
         .shin = bone_length(s, f, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN),
         .ankle = left >= 0 && right >= 0 ? 0.5 * (left + right) : -1,
-        .torso = torso_length(skeleton, s, rest, &f->roles),
+        .torso = torso_length(s, rest, &f->roles),
         .shoulders = distance_at(s, 0.5, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]),
         .upper_arm = bone_length(s, f, ROLE_LEFT_UPPER_ARM, ROLE_RIGHT_UPPER_ARM),
         .forearm = bone_length(s, f, ROLE_LEFT_FOREARM, ROLE_RIGHT_FOREARM),
@@ -249,12 +249,12 @@ bool figure_measure(const Motion *m, const FigureOptions *options, const Sample 
     if (options->up && !memchr("xyzXYZ", options->up, 6))
         return error_set(e, ERR_USAGE, "no such up axis '%c': x, y, z, X, Y or Z", options->up);
     find_ends(&m->skeleton, s, f);
-    *rest = rest_find(&m->skeleton, f);
+    *rest = rest_find(s, f);
     f->rest = rest->name;
     f->up = options->up ? options->up : upright_find(s, f, rest, (m->nframes - 1) * m->frame_time, notes);
     f->upright = upright_turn(f->up);
 
-    Lengths measured = measure_lengths(&m->skeleton, s, rest, f);
+    Lengths measured = measure_lengths(s, rest, f);
     double known = measured.thigh + measured.shin + measured.torso;
     if (!(known > 1e-12 && known < 1e12)) return error_set(e, ERR_INPUT, "skeleton of no size in '%s'", m->path);
     /* How many times the reference adult, in file units. */

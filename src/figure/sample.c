@@ -13,6 +13,14 @@ MUST_CHECK static bool read_rows(const Motion *m, MotionReader *reader, int coun
     return true;
 }
 
+static void zero_pose(const Skeleton *s, Rigid *world) {
+    for (int j = 0; j < s->njoints; j++) {
+        Vec3 place = {0, 0, 0};
+        for (int k = j; k >= 0; k = s->joint[k].parent) place = vec_add(place, s->joint[k].offset);
+        world[j] = (Rigid){mat_identity(), place};
+    }
+}
+
 bool sample_read(const Motion *m, int wanted, Arena *arena, Sample *out, Error *e) {
     int first = m->nframes >= FIRST_FRAME_HAS_NO_VOTE_FROM ? 1 : 0, n = m->nframes - first;
     int count = wanted < n ? wanted : n;
@@ -20,18 +28,21 @@ bool sample_read(const Motion *m, int wanted, Arena *arena, Sample *out, Error *
     long most = TRANSFORMS_MAX / (m->skeleton.njoints + 1) + 1;
     if (count > most) count = (int)most;
 
-    int *frame = ARENA_NEW(arena, int, count, e);
+    int njoints = m->skeleton.njoints;
+    int *frame = ARENA_NEW(arena, int, count + 1, e); /* the motion's first, and then those of the sample */
     double *row = frame ? ARENA_NEW(arena, double, m->skeleton.nchannels, e) : NULL;
-    Rigid *world = row ? ARENA_NEW(arena, Rigid, (size_t)count * (size_t)m->skeleton.njoints, e) : NULL;
+    Rigid *world = row ? ARENA_NEW(arena, Rigid, (size_t)(count + 2) * (size_t)njoints, e) : NULL;
     if (!world) return false;
     for (int i = 0; i < count; i++)
-        frame[i] = first + (count > 1 ? (int)((long long)i * (n - 1) / (count - 1)) : n / 2);
+        frame[i + 1] = first + (count > 1 ? (int)((long long)i * (n - 1) / (count - 1)) : n / 2);
 
     MotionReader *reader;
     if (!motion_reader_open(m, arena, &reader, e)) return false;
-    bool good = read_rows(m, reader, count, frame, row, world, e);
+    Rigid *zero = world, *taken = zero + njoints;
+    bool good = read_rows(m, reader, count + 1, frame, row, taken, e);
     motion_reader_close(reader);
-    *out = (Sample){count, m->skeleton.njoints, frame, world};
+    zero_pose(&m->skeleton, zero);
+    *out = (Sample){count, njoints, frame + 1, taken + njoints, taken, zero};
     return good;
 }
 
