@@ -38,9 +38,11 @@ static double height_in(int frame) {
     char name[40];
     Arena arena = {0};
     Error e = {0};
+    Text text;
     Mesh m;
     snprintf(name, sizeof name, "sheet.%04d.obj", frame);
-    bool good = obj_read(in_folder(name), &arena, &m, &e) && m.nvertices == VERTICES && m.normal[0].z == -1;
+    bool good = text_read(in_folder(name), 1 << 20, &arena, &text, &e) && obj_parse(&text, &arena, &m, &e) &&
+                m.nvertices == VERTICES && m.normal[0].z == -1;
     double y = good ? m.position[0].y : -1;
     arena_free(&arena);
     return y;

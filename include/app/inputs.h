@@ -15,8 +15,4 @@ typedef struct {
    read stays in the list: it is that motion's failure, not the batch's. Memory from arena. */
 MUST_CHECK bool inputs_collect(const TextList *operands, Arena *arena, Input **out, int *count, Error *e);
 
-/* One part of a path, made harmless as the name of a file: no separators, control bytes or
-   characters that some file system forbids, at most 120 bytes, none of our own endings. */
-char *inputs_clean(const char *part, size_t length, Arena *arena, Error *e);
-
 #endif

@@ -17,8 +17,8 @@ typedef struct {
     Settler settler;
     Tester tester;
     Vec3 *position;          /* of the sheet's vertices as they are written: output units, snapped */
-    Vec3 *moved;             /* private: positions of the vertices that have moved since a test; */
-    bool *flag;              /* and something about every vertex */
+    Vec3 *moved;             /* private: where vertices that have moved since a test are now; */
+    bool *flag;              /* a mark for every vertex, anew for each question */
 } Cloth;
 
 /* What is wrong with the mesh as it would be written, and what it took. Vertices that must not be where they are

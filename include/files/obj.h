@@ -34,9 +34,7 @@ void obj_writer_free(ObjWriter *w);
 /* Reads v, vt, vn, groups and f (any polygon, fan-triangulated; negative indices). Positions
    as they stand; a vertex takes normal and u, w from its first corner in a face, and arrays
    that not every corner gives are NULL. Groups are those of `g`, without any those of `o`,
-   without any those of `usemtl`. No edges. ERR_INPUT with place. Used by `kitsuke verify` and
-   the tests. */
-MUST_CHECK bool obj_read(const char *path, Arena *arena, Mesh *out, Error *e);
+   without any those of `usemtl`. No edges. ERR_INPUT with place. */
 MUST_CHECK bool obj_parse(const Text *text, Arena *arena, Mesh *out, Error *e);
 
 #endif

@@ -49,7 +49,4 @@ int crossing_find(const CrossingSet *edges, const CrossingSet *triangles, Crossi
 int crossing_find_plainly(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
                           CrossingCount *count);
 
-/* Is there any? Stops at the first; adds what it tested to *count. */
-bool crossing_any(const CrossingSet *edges, const CrossingSet *triangles, CrossingCount *count);
-
 #endif

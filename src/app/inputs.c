@@ -134,7 +134,9 @@ static uint32_t hash(const char *s, size_t n) { /* FNV-1a */
     return h;
 }
 
-char *inputs_clean(const char *part, size_t length, Arena *arena, Error *e) {
+/* One part of a path, made harmless as the name of a file: no separators, control bytes or
+   characters that some file system forbids, at most 120 bytes, none of our own endings. */
+static char *clean(const char *part, size_t length, Arena *arena, Error *e) {
     static const char *const ours[] = {".obj", ".drc", ".csv", ".tmp", ".lock", RECORD_NAME};
     char *out = ARENA_NEW(arena, char, length + 16, e);
     if (!out) return NULL;
@@ -166,7 +168,7 @@ static const char *clean_path(const char *path, size_t length, int number, Arena
         const char *slash = memchr(path + at, '/', length - at);
         k = slash ? (size_t)(slash - path) - at : length - at;
         if (k == 0 || (k <= 2 && memcmp(path + at, "..", k) == 0)) continue;
-        char *part = inputs_clean(path + at, k, arena, e);
+        char *part = clean(path + at, k, arena, e);
         if (!part) return NULL;
         n += (size_t)snprintf(out + n, 2 * length + 32 - n, "%s%s", n ? "/" : "", part);
     }

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { FILE_LIMIT = 1 << 30, INDEX_DIGITS = 9 };
+enum { INDEX_DIGITS = 9 };
 
 typedef enum { LINE_V, LINE_VT, LINE_VN, LINE_F, LINE_G, LINE_O, LINE_USEMTL, LINE_OTHER } LineKind;
 static const char *const line_words[LINE_OTHER] = {"v", "vt", "vn", "f", "g", "o", "usemtl"};
@@ -223,9 +223,4 @@ bool obj_parse(const Text *text, Arena *arena, Mesh *out, Error *e) {
     if (!r.all_uv || out->ntriangles == 0) out->u = out->w = NULL;
     if (!r.all_normal || out->ntriangles == 0) out->normal = NULL;
     return true;
-}
-
-bool obj_read(const char *path, Arena *arena, Mesh *out, Error *e) {
-    Text text;
-    return text_read(path, FILE_LIMIT, arena, &text, e) && obj_parse(&text, arena, out, e);
 }

@@ -116,7 +116,6 @@ typedef struct {
     Crossing *out;
     int capacity, written;
     CrossingCount *count;
-    bool first_only;
 } Search;
 
 static Search search_of(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
@@ -125,65 +124,48 @@ static Search search_of(const CrossingSet *edges, const CrossingSet *triangles, 
                     .out = out, .capacity = capacity, .count = count};
 }
 
-/* All below return true to end the search. */
-static bool decide(Search *s, int edge, int triangle, const Plane *plane) {
+static void decide(Search *s, int edge, int triangle, const Plane *plane) {
     const int *i = s->edges->index + 2 * (size_t)edge, *j = s->triangles->index + 3 * (size_t)triangle;
     const Vec3 *v = s->edges->position, *w = s->triangles->position;
     Vec3 p = v[i[0]], q = v[i[1]];
-    if (are_beside(plane, p, q)) return false;
-    if (!predicate_segment_triangle(p, q, w[j[0]], w[j[1]], w[j[2]])) return false;
+    if (are_beside(plane, p, q)) return;
+    if (!predicate_segment_triangle(p, q, w[j[0]], w[j[1]], w[j[2]])) return;
     s->count->hits++;
     if (s->written < s->capacity) s->out[s->written++] = (Crossing){edge, triangle};
-    return s->first_only;
 }
 
 /* The lanes `edges` of edge tile i against one triangle: all their boxes overlap. */
-static bool search_triangle(Search *s, int i, unsigned edges, int triangle) {
+static void search_triangle(Search *s, int i, unsigned edges, int triangle) {
     Plane plane = plane_of(s->triangles, triangle, s->reach);
     s->count->pairs_tested += __builtin_popcount(edges);
-    for (; edges; edges &= edges - 1)
-        if (decide(s, i * LANES + lowest(edges), triangle, &plane)) return true;
-    return false;
+    for (; edges; edges &= edges - 1) decide(s, i * LANES + lowest(edges), triangle, &plane);
 }
 
 /* Tile i of the edges at this level against the lanes `triangles` of tile j of the triangles. */
-static bool search_tiles(Search *s, int level, int i, int j, TileLanes triangles) {
+static void search_tiles(Search *s, int level, int i, int j, TileLanes triangles) {
     const Tile *e = &s->edges->level[level][i], *t = &s->triangles->level[level][j];
     TileLanes row[LANES];
     for (unsigned left = s->machine->meet(e, t, triangles, row); left; left &= left - 1) {
         int k = lowest(left), below = j * LANES + k;
         if (level == 0) {
-            if (search_triangle(s, i, row[k], below)) return true;
+            search_triangle(s, i, row[k], below);
             continue;
         }
         for (unsigned edges = row[k]; edges; edges &= edges - 1) {
             int m = lowest(edges);
             TileLanes inner = s->machine->overlap(&s->triangles->level[level - 1][below], e, m);
-            if (inner && search_tiles(s, level - 1, i * LANES + m, below, inner)) return true;
+            if (inner) search_tiles(s, level - 1, i * LANES + m, below, inner);
         }
     }
-    return false;
-}
-
-static int search(Search *s) {
-    s->count->pairs_all += (long long)s->edges->count * s->triangles->count;
-    for (int i = 0; i < top_tiles(s->edges); i++)
-        for (int j = 0; j < top_tiles(s->triangles); j++)
-            if (search_tiles(s, TOP, i, j, 0xFFFF)) return s->written;
-    return s->written;
 }
 
 int crossing_find(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
                   CrossingCount *count) {
     Search s = search_of(edges, triangles, out, capacity, count);
-    return search(&s);
-}
-
-bool crossing_any(const CrossingSet *edges, const CrossingSet *triangles, CrossingCount *count) {
-    Crossing hit;
-    Search s = search_of(edges, triangles, &hit, 1, count);
-    s.first_only = true;
-    return search(&s) > 0;
+    count->pairs_all += (long long)edges->count * triangles->count;
+    for (int i = 0; i < top_tiles(edges); i++)
+        for (int j = 0; j < top_tiles(triangles); j++) search_tiles(&s, TOP, i, j, 0xFFFF);
+    return s.written;
 }
 
 /* --- without culling --- */
