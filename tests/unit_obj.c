@@ -122,7 +122,7 @@ static bool same_mesh(const Mesh *a, const Mesh *b) {
     return good;
 }
 
-static void test_obj_parse(void) {
+static void test_read_back(void) {
     static Wave wave;
     make_wave(&wave);
     for (int i = 0; i < VERTICES; i++) wave.position[i].z = round(1e6 * wave.position[i].z) / 1e6;
@@ -228,7 +228,7 @@ int main(void) {
         if (vectors_usable(v)) test_text(v);
     test_what_changes();
     test_obj_write();
-    test_obj_parse();
+    test_read_back();
     test_obj_parse();
     folder_remove();
     return tap_done();
