@@ -131,7 +131,8 @@ static void no_means_no(void) {
                 Vec3 n = direction(), away = direction(), rough = vec_unit_or(vec_mad(n, direction(), 0.1), n);
                 if (yield_may(&x, rough, away)) continue;
                 no++;
-                wrong += yield_by(&x, 1, vec(0, 0, 0), -0.05 * dice_unit(), -0.05 * dice_unit(), away, &n) > 0;
+                Meeting m = {vec(0, 0, 0), -0.05 * dice_unit(), -0.05 * dice_unit(), n, away};
+                wrong += yield_by(&x, YIELD_ROOM, &m) > 0;
             }
         }
     OK(no > 1000 && no < asked && wrong == 0, "parts give way nowhere that they may not (%d of %d)", no, asked);

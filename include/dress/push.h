@@ -8,9 +8,10 @@
 #include "dress/surface.h"
 
 /* The unknowns that move the places of a cell of the deepest level: four level vertices of each level, by their
-   numbers in Field.displacement; and for one coordinate of a place how those at its two ends weigh. The weight of
-   vertex 2 x + y is that of x along u times that of y along w. Private, as are samples. */
-typedef struct { int unknown[LATTICE_LEVELS][4]; } PushCell;
+   numbers in Field.displacement, and how many levels have any that may move; and for one coordinate of a place how
+   those at its two ends weigh. The weight of vertex 2 x + y is that of x along u times that of y along w. Private, as
+   are samples. */
+typedef struct { int unknown[LATTICE_LEVELS][4], levels; } PushCell;
 typedef struct { double weight[LATTICE_LEVELS][2]; } PushAlong;
 
 /* A mesh vertex near the body. */

@@ -10,7 +10,8 @@
 typedef struct {
     Vec3 centre;     /* of the joint */
     Vec3 inwards;    /* unit: from the joint into the fold */
-    Vec3 across;     /* unit: normal of the plane, towards the part that gives way */
+    Vec3 across;     /* unit: normal of the plane, towards the part that gives way, */
+    Vec3 floor;      /* and of the wall from its bottom towards the joint */
     double bottom;   /* how far from the joint along `inwards` the fold begins; 0: there is none */
 } Fold;
 
@@ -44,10 +45,18 @@ void yield_fold(Vec3 centre, Vec3 up, Vec3 down, double radius, Contact *upper, 
 /* May a part give way at all where its normal is about this one and the other's is `away`? A cheap question. */
 bool yield_may(const Contact *c, Vec3 normal, Vec3 away);
 
-/* How far a part that is `distance` from p, with unit normal *normal there, gives way to one that is `other`
-   away with unit normal `away`: metres, >= 0, to be added to the distance. *normal becomes that of the
-   sum. `scale` as above. */
-double yield_by(const Contact *c, double scale, Vec3 p, double distance, double other, Vec3 away, Vec3 *normal);
+/* A point (world, metres) where a part and one that presses on it stand so far away, each as if alone, with these unit
+   normals. */
+typedef struct {
+    Vec3 at;
+    double distance, other;
+    Vec3 normal, away;
+} Meeting;
+
+/* How far the part gives way there, where `room` is to be left between the two: metres, >= 0 and no more than
+   c->most, to be added to the distance. Where it does, the normal of what that leaves. */
+double yield_by(const Contact *c, double room, const Meeting *m);
+Vec3 yield_normal(const Contact *c, double room, const Meeting *m);
 
 /* The room that parts leave between them, metres on 1.70 m: two layers of cloth, a sleeve and the side
    of a shirt or two legs of trousers, that keep their margin, with what facets need for being flat. */

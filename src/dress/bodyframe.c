@@ -40,41 +40,37 @@ static inline double own_distance(const BodyFrame *f, int part, BodyPoint *p, do
     return body_frame_far(f, part, p->at, far) ? far : distance_in_box(f, part, p, far, normal);
 }
 
-/* How far a part gives way at a point, and its normal there. */
-typedef struct {
-    double by;
-    Vec3 normal;
-} Way;
-
-/* Takes account of one contact of a part that is `distance` away from p with normal `mine`, and `other` with normal
-   `away` from the other: it gives way to the one that asks for most. */
-static void press(const BodyFrame *f, const Contact *contact, Vec3 p, double distance, Vec3 mine, double other,
-                  Vec3 away, Way *way) {
-    double by = yield_by(contact, figure_scale(f->body->height), p, distance, other, away, &mine);
-    if (by > way->by) *way = (Way){by, mine};
-}
-
-/* Farther away than the room that parts leave to each other the other is never asked. */
-static Way give_way(const BodyFrame *f, int part, BodyPoint *p, double distance, Vec3 normal) {
+/* How far a part gives way at a point that is m->distance away from it, to the contact that asks for most; *normal, if
+   not NULL, becomes that of what is left of it. Farther away than the room that parts leave to each other the other is
+   never asked. */
+static double give_way(const BodyFrame *f, int part, BodyPoint *p, Meeting *m, Vec3 *normal) {
     const Contacts *contacts = &f->contacts[part];
-    double far = f->room - distance;
-    Way way = {0, normal};
+    double far = f->room - m->distance, most = 0;
+    Meeting with_most;
+    const Contact *to = NULL;
     for (int k = 0; k < contacts->n; k++) {
-        Vec3 away;
-        double other = own_distance(f, contacts->contact[k].other, p, far, &away);
-        if (other < far) press(f, &contacts->contact[k], p->at, distance, normal, other, away, &way);
+        const Contact *contact = &contacts->contact[k];
+        if (contact->most <= most) continue;
+        m->other = own_distance(f, contact->other, p, far, &m->away);
+        double by = m->other < far ? yield_by(contact, f->room, m) : 0;
+        if (by <= most) continue;
+        most = by;
+        to = contact;
+        with_most = *m;
     }
-    return way;
+    if (normal) *normal = to ? yield_normal(to, f->room, &with_most) : m->normal;
+    return most;
 }
 
 double body_point_distance(const BodyFrame *f, int part, BodyPoint *p, double far, Vec3 *normal) {
     if (f->contacts[part].n == 0) return own_distance(f, part, p, far, normal);
-    Vec3 n;
-    double d = own_distance(f, part, p, far, &n);
-    if (d >= far) return d;
-    Way way = d < f->room ? give_way(f, part, p, d, n) : (Way){0, n};
-    if (normal) *normal = way.normal;
-    return d + way.by;
+    Meeting m;
+    m.at = p->at;
+    m.distance = own_distance(f, part, p, far, &m.normal);
+    if (m.distance >= far) return m.distance;
+    if (m.distance < f->room) return m.distance + give_way(f, part, p, &m, normal);
+    if (normal) *normal = m.normal;
+    return m.distance;
 }
 
 double body_point_unpressed(const BodyFrame *f, int part, BodyPoint *p, double far) {

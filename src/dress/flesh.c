@@ -43,7 +43,7 @@ static bool gather(const BodyFrame *f, int part, int other, int *v, Block *out) 
 /* A part gives way to another: every vertex of its skin by the most that anyone asks for. Returns whether the other
    is near at all. */
 static bool press(BodyFrame *f, int part, const Contact *contact) {
-    double distance[BLOCK], level[BLOCK], scale = figure_scale(f->body->height);
+    double distance[BLOCK], level[BLOCK];
     Vec3 away[BLOCK], normal[BLOCK];
     bool any = false;
     Block all, near;
@@ -62,9 +62,9 @@ static bool press(BodyFrame *f, int part, const Contact *contact) {
         body_frame_unpressed_many(f, part, near.skin, near.n, INFINITY, level, normal);
         for (int i = 0; i < near.n; i++) {
             Give *give = &f->give[near.vertex[i]];
-            double by = yield_by(contact, scale, near.skin[i], level[i], distance[i], away[i], &normal[i]);
+            Meeting m = {near.skin[i], level[i], distance[i], normal[i], away[i]};
             give->level = level[i];
-            give->by = fmax(give->by, by);
+            give->by = fmax(give->by, yield_by(contact, f->room, &m));
         }
     }
     return any;

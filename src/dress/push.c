@@ -106,6 +106,17 @@ static void find_mobility(Push *p, const Leaves *leaves) {
     }
 }
 
+/* Levels deeper than the leaf over a cell have nothing to say there. */
+static void find_levels(Push *p) {
+    for (int c = 0; c < lattice_cells(p->lattice); c++) {
+        PushCell *cell = &p->cell[c];
+        cell->levels = 0;
+        for (int level = 0; level <= p->lattice->depth; level++)
+            for (int k = 0; k < 4; k++)
+                if (p->mobility[cell->unknown[level][k]] > 0) cell->levels = level + 1;
+    }
+}
+
 /* A vertex displaced by d: never farther than the cap, whatever the levels add up to. */
 static Vec3 displaced(const Push *p, const Sheet *sheet, int vertex, Vec3 d) {
     bool capped = false;
@@ -119,14 +130,14 @@ static void find_points(Push *p, const Sheet *sheet) {
     for (int v = 0; v < sheet->nvertices; v++) p->point[v] = displaced(p, sheet, v, p->point[v]);
 }
 
-static void weigh(const Push *p, const PushSample *s, double weight[][4]) {
-    for (int level = 0; level <= p->lattice->depth; level++)
+static void weigh(const PushSample *s, double weight[][4]) {
+    for (int level = 0; level < s->cell->levels; level++)
         for (int k = 0; k < 4; k++) weight[level][k] = s->u->weight[level][k / 2] * s->w->weight[level][k % 2];
 }
 
 static Vec3 sample_point(const Push *p, const Sheet *sheet, const PushSample *s, double weight[][4]) {
     Vec3 d = {0, 0, 0};
-    for (int level = 0; level <= p->lattice->depth; level++)
+    for (int level = 0; level < s->cell->levels; level++)
         for (int k = 0; k < 4; k++) d = vec_mad(d, p->field.displacement[s->cell->unknown[level][k]], weight[level][k]);
     return displaced(p, sheet, s->vertex, d);
 }
@@ -174,13 +185,13 @@ static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
 /* Moves a sample by `depth` along n with the least change of the unknowns. */
 static void project(Push *p, const PushSample *s, double weight[][4], Vec3 n, double depth, PushResult *result) {
     double norm2 = 0, mobile[LATTICE_LEVELS][4];
-    for (int level = 0; level <= p->lattice->depth; level++)
+    for (int level = 0; level < s->cell->levels; level++)
         for (int k = 0; k < 4; k++) {
             mobile[level][k] = p->mobility[s->cell->unknown[level][k]] * weight[level][k];
             norm2 += mobile[level][k] * weight[level][k];
         }
     double step = depth / fmax(norm2, NORM_MIN), sum = 0;
-    for (int level = 0; level <= p->lattice->depth; level++) {
+    for (int level = 0; level < s->cell->levels; level++) {
         double most = 0;
         for (int k = 0; k < 4; k++) {
             int unknown = s->cell->unknown[level][k];
@@ -201,7 +212,7 @@ static void project(Push *p, const PushSample *s, double weight[][4], Vec3 n, do
 static double travelled(const Push *p, const PushSample *s) {
     const double *t = p->travel;
     double sum = 0;
-    for (int level = 0; level <= p->lattice->depth; level++) {
+    for (int level = 0; level < s->cell->levels; level++) {
         const int *k = s->cell->unknown[level];
         const double *u = s->u->weight[level], *w = s->w->weight[level];
         sum += u[0] * (w[0] * t[k[0]] + w[1] * t[k[1]]) + u[1] * (w[0] * t[k[2]] + w[1] * t[k[3]]);
@@ -229,7 +240,7 @@ static bool needs_asking(Push *p, const Sheet *sheet, PushSample *s, double weig
     double slack = near_slack(s->near.least, enough_for(p, s)), way = travelled(p, s);
     s->patch_travelled = p->patch_travel[s->patch] - (way - s->travelled);
     if (slack > way - s->travelled) return false;
-    weigh(p, s, weight);
+    weigh(s, weight);
     Vec3 x = sample_point(p, sheet, s, weight);
     double gone = vec_dist(x, s->near.seen);
     s->travelled = way;
@@ -321,6 +332,7 @@ void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *s
     p->near_known = false;
     p->escape.root = root;
     find_mobility(p, leaves);
+    find_levels(p);
     surface_points(&p->surface, sheet, root, p->global);
     for (int v = 0; v < sheet->nvertices; v++) p->clearance[v] = PUSH_MARGIN * p->field.scale;
 }

@@ -74,6 +74,11 @@ void yield_contact(Role a, Role b, double scale, Contact *of_a, Contact *of_b) {
 
 bool yield_hinges(Role upper, Role lower) { return is_upper(upper) && lower == upper + 1; }
 
+static Vec3 floor_of(const Fold *fold) {
+    static const double STEEP = 3;
+    return vec_unit_or(vec_mad(fold->across, fold->inwards, -STEEP), fold->across);
+}
+
 void yield_fold(Vec3 centre, Vec3 up, Vec3 down, double radius, Contact *upper, Contact *lower) {
     static const double OPEN = 40 * PI / 180, FOLDED = 80 * PI / 180; /* bends of the joint */
     static const double BEYOND = 1.5; /* radii: an open joint has no fold, its skin does not reach that far in */
@@ -84,34 +89,54 @@ void yield_fold(Vec3 centre, Vec3 up, Vec3 down, double radius, Contact *upper, 
     if (bend > OPEN) upper->fold.bottom = radius * (BEYOND + (1 - BEYOND) * smoothstep(OPEN, FOLDED, bend));
     lower->fold = upper->fold;
     lower->fold.across = vec_scale(upper->fold.across, -1);
+    upper->fold.floor = floor_of(&upper->fold);
+    lower->fold.floor = floor_of(&lower->fold);
     upper->most = fmax(upper->most, GIVES * radius);
     lower->most = fmax(lower->most, GIVES * radius);
 }
 
-/* In a fold a part ends at the plane that halves the bend, half the room before it; towards the joint, where
-   both bones are one, the wall falls away steeply. It ends there only where the other is near. */
-static double yield_in_fold(const Contact *c, double scale, Vec3 p, double distance, double other, Vec3 away,
-                            Vec3 *normal) {
-    static const double STEEP = 3;
-    const Fold *fold = &c->fold;
-    Vec3 r = vec_sub(p, fold->centre), floor = vec_unit_or(vec_mad(fold->across, fold->inwards, -STEEP), fold->across);
-    double half = 0.5 * YIELD_ROOM * scale, near = YIELD_ROOM * scale - other;
-    double wall = half - vec_dot(r, fold->across);
-    double below = half * vec_dot(floor, fold->across) - vec_dot(vec_mad(r, fold->inwards, -fold->bottom), floor);
-    double least = fmin(fmin(wall, below), near);
-    if (least <= distance) return 0;
-    *normal = vec_scale(least == near ? away : least == wall ? fold->across : floor, -1);
-    return fmin(least - distance, c->most);
+/* Where a part that folds ends: the plane that halves the bend, half the room before it; towards the joint, where
+   both bones are one, the wall that falls away steeply. It ends there only where the other is near. */
+typedef struct { double wall, below, near; } FoldEnd;
+static FoldEnd end_in_fold(const Fold *fold, double room, const Meeting *m) {
+    Vec3 r = vec_sub(m->at, fold->centre);
+    double half = 0.5 * room;
+    return (FoldEnd){.wall = half - vec_dot(r, fold->across),
+                     .below = half * vec_dot(fold->floor, fold->across) -
+                              vec_dot(vec_mad(r, fold->inwards, -fold->bottom), fold->floor),
+                     .near = room - m->other};
 }
 
-static double yield_by_share(const Contact *c, double scale, double distance, double other, Vec3 away, Vec3 *normal) {
+static inline double lesser(double a, double b) { return a < b ? a : b; }
+
+static double yield_in_fold(const Contact *c, double room, const Meeting *m) {
+    if (c->fold.bottom <= 0) return 0;
+    FoldEnd end = end_in_fold(&c->fold, room, m);
+    double least = lesser(lesser(end.wall, end.below), end.near);
+    return least <= m->distance ? 0 : lesser(least - m->distance, c->most);
+}
+
+static Vec3 normal_in_fold(const Fold *fold, double room, const Meeting *m) {
+    FoldEnd end = end_in_fold(fold, room, m);
+    bool is_near = end.near <= end.wall && end.near <= end.below;
+    return vec_scale(is_near ? m->away : end.wall <= end.below ? fold->across : fold->floor, -1);
+}
+
+/* The share of what is lacking that a part makes. */
+static double share_at(const Contact *c, const Meeting *m) {
     static const double FACING = 0.6; /* cosine between a normal and the other's opposite: folded, all of the way */
-    double lacking = YIELD_ROOM * scale - distance - other, share = c->share;
-    if (lacking <= 0) return 0;
-    if (c->folds) share *= smoothstep(0, FACING, -vec_dot(*normal, away));
-    if (share * lacking >= c->most) return c->most;
-    *normal = vec_unit_or(vec_sub(vec_scale(*normal, 1 - share), vec_scale(away, share)), *normal);
-    return share * lacking;
+    return c->folds ? c->share * smoothstep(0, FACING, -vec_dot(m->normal, m->away)) : c->share;
+}
+
+static double yield_by_share(const Contact *c, double room, const Meeting *m) {
+    double lacking = room - m->distance - m->other;
+    return lacking <= 0 ? 0 : lesser(share_at(c, m) * lacking, c->most);
+}
+
+static Vec3 normal_by_share(const Contact *c, double room, const Meeting *m) {
+    double share = share_at(c, m);
+    if (yield_by_share(c, room, m) >= c->most) return m->normal;
+    return vec_unit_or(vec_sub(vec_scale(m->normal, 1 - share), vec_scale(m->away, share)), m->normal);
 }
 
 bool yield_may(const Contact *c, Vec3 normal, Vec3 away) {
@@ -119,10 +144,12 @@ bool yield_may(const Contact *c, Vec3 normal, Vec3 away) {
     return !c->folds || c->fold.bottom > 0 || vec_dot(normal, away) < SURE;
 }
 
-double yield_by(const Contact *c, double scale, Vec3 p, double distance, double other, Vec3 away, Vec3 *normal) {
-    Vec3 shared = *normal, folded = *normal;
-    double by = yield_by_share(c, scale, distance, other, away, &shared);
-    double in_fold = c->fold.bottom > 0 ? yield_in_fold(c, scale, p, distance, other, away, &folded) : 0;
-    *normal = in_fold > by ? folded : shared;
-    return fmax(by, in_fold);
+double yield_by(const Contact *c, double room, const Meeting *m) {
+    double by_share = yield_by_share(c, room, m), in_fold = yield_in_fold(c, room, m);
+    return in_fold > by_share ? in_fold : by_share;
+}
+
+Vec3 yield_normal(const Contact *c, double room, const Meeting *m) {
+    bool is_folded = yield_in_fold(c, room, m) > yield_by_share(c, room, m);
+    return is_folded ? normal_in_fold(&c->fold, room, m) : normal_by_share(c, room, m);
 }
