@@ -1,21 +1,8 @@
 /* The canonical human: what it is by definition, that every family gives the same one, and what
    it does in real motions. */
 #include "folder.h"
-#include "rig.h"
 #include "tap.h"
-
-static const double DEGREE = PI / 180;
-
-static double angle(Vec3 a, Vec3 b) {
-    double c = vec_dot(vec_unit_or(a, vec(0, 0, 0)), vec_unit_or(b, vec(0, 0, 0)));
-    return acos(clamp(c, -1, 1)) / DEGREE;
-}
-
-/* Angle of the rotation that takes one frame to the other, degrees. */
-static double turned(Mat3 a, Mat3 b) {
-    Mat3 d = mat_mul(mat_transpose(a), b);
-    return acos(clamp((d.r[0].x + d.r[1].y + d.r[2].z - 1) / 2, -1, 1)) / DEGREE;
-}
+#include "turns.h"
 
 static bool is_rotation(Mat3 m) {
     Mat3 i = mat_mul(m, mat_transpose(m));
@@ -95,27 +82,6 @@ static double limb_difference(Rig *a, Rig *b) {
             Vec3 v = mat_apply(q.bone[limbs[i]].r, vec_sub(b->figure.end[limbs[i]], b->figure.start[limbs[i]]));
             most = fmax(most, angle(u, v));
         }
-    }
-    return most;
-}
-
-static double foot_difference(Rig *a, Rig *b) {
-    double most = 0;
-    for (int frame = 0; frame < a->motion.nframes; frame++)
-        for (int foot = ROLE_LEFT_FOOT; foot <= ROLE_RIGHT_FOOT; foot += ROLE_RIGHT_FOOT - ROLE_LEFT_FOOT) {
-            const Figure *f = &a->figure, *g = &b->figure;
-            Vec3 u = mat_apply(rig_pose(a, frame).bone[foot].r, vec_sub(f->end[foot], f->start[foot]));
-            Vec3 v = mat_apply(rig_pose(b, frame).bone[foot].r, vec_sub(g->end[foot], g->start[foot]));
-            most = fmax(most, angle(u, v));
-        }
-    return most;
-}
-
-static double turn_difference(Rig *a, Rig *b, Role role) {
-    double most = 0;
-    for (int frame = 0; frame < a->motion.nframes; frame++) {
-        Pose p = rig_pose(a, frame), q = rig_pose(b, frame);
-        most = fmax(most, turned(p.bone[role].r, q.bone[role].r));
     }
     return most;
 }
@@ -235,86 +201,6 @@ static void test_upright(void) {
            "up axis %c is turned up", options.up);
         rig_close(&r);
     }
-}
-
-/* Up is up also of those who never stand. The body lies turned by 20 degrees about its own axis. */
-static void test_lying(void) {
-    static const struct { const char *file; char up; double face; } cases[] = {
-        {"tests/data/figure/pushups.bvh", 'y', -1}, {"tests/data/figure/lying.bvh", 'z', 1},
-    };
-    for (int i = 0; i < 2; i++) {
-        Rig r;
-        bool good = rig_open(&r, cases[i].file, NULL) && r.figure.up == cases[i].up;
-        OK(good, "%s: up is %c", cases[i].file, r.figure.up);
-        Pose pose = rig_pose(&r, 5);
-        OK(angle(mat_column(pose.bone[ROLE_CHEST].r, 2), vec(0, cases[i].face, 0)) < 35, "and the chest faces %s",
-           cases[i].face > 0 ? "the sky" : "the floor");
-        OK(angle(mat_column(pose.bone[ROLE_PELVIS].r, 2), vec(0, cases[i].face, 0)) < 35, "and so does the pelvis");
-        rig_close(&r);
-    }
-}
-
-/* lafan1.bvh for five seconds, toppled about z, high over zero: nothing tells of a floor, but x is no axis for
-   up. */
-static void test_toppled(void) {
-    const char *path = in_folder("toppled.bvh");
-    FILE *in = fopen("tests/data/figure/lafan1.bvh", "r"), *out = fopen(path, "w");
-    char line[4096];
-    double x, y, z, about_z;
-    int used = 0;
-    while (fgets(line, sizeof line, in)) {
-        bool row = sscanf(line, "%lf %lf %lf %lf %n", &x, &y, &z, &about_z, &used) == 4;
-        if (row) fprintf(out, "%g 150 300 %g %s", x, about_z - 90, line + used);
-        else fputs(strstr(line, "Frame Time") ? "Frame Time: 0.5\n" : line, out);
-    }
-    fclose(in);
-    fclose(out);
-    Rig r;
-    bool good = rig_open(&r, path, NULL) && r.figure.up == 'y';
-    OK(good, "who lies along x lies: up is %c", r.figure.up);
-    rig_close(&r);
-}
-
-/* Who crouches on the toes for the whole take never shows how trunk, head and feet are at rest: the same take with a
-   human zero pose tells. */
-static void test_crouch(void) {
-    Rig told, found;
-    if (!OK(rig_open(&told, "tests/data/figure/crouch_tpose.bvh", NULL) &&
-                rig_open(&found, "tests/data/figure/crouch.bvh", NULL), "crouchers open")) return;
-    OK(turn_difference(&told, &found, ROLE_PELVIS) < 7, "a crouching pelvis turns the same way without a zero pose");
-    OK(turn_difference(&told, &found, ROLE_CHEST) < 3, "and the chest");
-    OK(turn_difference(&told, &found, ROLE_HEAD) < 13, "and the head");
-    OK(foot_difference(&told, &found) < 4, "and the feet point the same way, that never stand flat");
-    rig_close(&told);
-    rig_close(&found);
-}
-
-/* The same crouch with a T-pose in front: that frame tells as much as a human zero pose. */
-static void test_pose_in_front(void) {
-    Rig told, found;
-    if (!OK(rig_open(&told, "tests/data/figure/crouch_tpose.bvh", NULL) &&
-                rig_open(&found, "tests/data/figure/crouch_calibrated.bvh", NULL), "calibrated crouchers open")) return;
-    double most = 0;
-    for (int frame = 0; frame < told.motion.nframes; frame++) {
-        Pose p = rig_pose(&told, frame), q = rig_pose(&found, frame + 1);
-        for (int r = 0; r < ROLE_COUNT; r++) most = fmax(most, turned(p.bone[r].r, q.bone[r].r));
-    }
-    OK(strcmp(found.figure.rest, "T-pose in frame 1") == 0, "rest: %s", found.figure.rest);
-    OK(most < 0.5, "behind a T-pose every bone turns as with a human zero pose (%.2f degrees)", most);
-    NEAR(found.figure.height, told.figure.height, 1e-4, "and the stature is the same");
-    rig_close(&told);
-    rig_close(&found);
-}
-
-/* Feet lie along the shins of one who kneels, and look back: a moment of standing tells where they point. */
-static void test_kneel(void) {
-    Rig told, found;
-    if (!OK(rig_open(&told, "tests/data/figure/kneel_tpose.bvh", NULL) &&
-                rig_open(&found, "tests/data/figure/kneel.bvh", NULL), "kneelers open")) return;
-    double off = foot_difference(&told, &found);
-    OK(off < 16, "the feet of one who kneels point the same way without a zero pose (%.1f degrees)", off);
-    rig_close(&told);
-    rig_close(&found);
 }
 
 /* A thigh that is lifted towards the chest, a little to the side, while the knee is stretched and while it is bent. */
@@ -494,11 +380,6 @@ int main(void) {
     test_units();
     test_options();
     test_upright();
-    test_lying();
-    test_toppled();
-    test_crouch();
-    test_pose_in_front();
-    test_kneel();
     test_lifted_thigh();
     for (int i = 0; i < (int)(sizeof real / sizeof real[0]); i++) test_real(i);
     test_same_skeleton();

@@ -57,6 +57,11 @@ static const char *naming(const Skeleton *s) {
         {"upperleg01", "MakeHuman"},
         {"LeftInHand", "Rokoko and Neuron"},
         {"J_Bip", "VRM"},
+        {"CC_Base", "Character Creator"},
+        {"DEF-", "Rigify"},
+        {"L_Hip", "SMPL"},
+        {"ShoulderLeft", "Kinect"},
+        {"\xe5\xb7\xa6\xe8\xb6\xb3", "MikuMikuDance"}, /* the left leg */
         {"_jnt", "Maya rig"},
         {"LeftUpLeg", "MotionBuilder"},
         {"thigh_l", "Unreal"},

@@ -188,6 +188,19 @@ static Mat3 chest_from_bones(const Binder *b, Mat3 bind) {
     return vec_len(neck) > SAYS * b->f->height ? lean_within(bind, neck, 0) : bind;
 }
 
+/* On the mean over all frames people look ahead and their heads are level; but for whole takes they may look down or
+   aside. Where bones lie along an axis the zero pose stretches the trunk, and the frames of head and chest are parallel.
+   So of what the frames say of a head that is near to that only the nod counts, and not too much of it. */
+static Mat3 head_from_chest(const Binder *b) {
+    static const double NEAR = 0.5, NODS = 0.3; /* cosine; radians */
+    int all[SAMPLE_FRAMES_MAX];
+    for (int i = 0; i < b->sample->count; i++) all[i] = i;
+    Mat3 level = bind_like(b, all, b->sample->count, b->f->roles.joint[ROLE_HEAD], ROLE_CHEST);
+    Mat3 chest = b->f->bind[ROLE_CHEST].r;
+    if (vec_dot(mat_column(chest, 0), mat_column(level, 0)) < NEAR) return level;
+    return lean_within(lean_within(chest, mat_column(level, 1), 0), mat_column(chest, 1), NODS);
+}
+
 /* The head's only child, or the highest of several that is no eye and no hair, is about over it. */
 static Mat3 head_from_bones(const Binder *b, Mat3 bind) {
     static const double LEAN = 0.2;
@@ -364,10 +377,7 @@ void figure_bind(const Skeleton *skeleton, const Sample *sample, const Rest *res
         Mat3 chest = bind_from_line(&b, upright, n, ROLE_CHEST, ROLE_RIGHT_UPPER_ARM, ROLE_LEFT_UPPER_ARM, 0);
         f->bind[ROLE_PELVIS].r = pelvis_from_bones(&b, level, known);
         f->bind[ROLE_CHEST].r = chest_from_bones(&b, chest);
-        int all[SAMPLE_FRAMES_MAX];
-        for (int i = 0; i < sample->count; i++) all[i] = i;
-        if (j[ROLE_HEAD] >= 0)
-            f->bind[ROLE_HEAD].r = head_from_bones(&b, bind_like(&b, all, sample->count, j[ROLE_HEAD], ROLE_CHEST));
+        if (j[ROLE_HEAD] >= 0) f->bind[ROLE_HEAD].r = head_from_bones(&b, head_from_chest(&b));
     }
     anchor_torso(&b, ROLE_PELVIS, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH);
     anchor_torso(&b, ROLE_CHEST, ROLE_LEFT_UPPER_ARM, ROLE_RIGHT_UPPER_ARM);

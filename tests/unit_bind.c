@@ -1,0 +1,126 @@
+/* How the body sits on the joints of rigs whose zero pose tells nothing: against the same take with a human one. */
+#include "folder.h"
+#include "tap.h"
+#include "turns.h"
+
+/* Up is up also of those who never stand. The body lies turned by 20 degrees about its own axis. */
+static void test_lying(void) {
+    static const struct { const char *file; char up; double face; } cases[] = {
+        {"tests/data/figure/pushups.bvh", 'y', -1}, {"tests/data/figure/lying.bvh", 'z', 1},
+    };
+    for (int i = 0; i < 2; i++) {
+        Rig r;
+        bool good = rig_open(&r, cases[i].file, NULL) && r.figure.up == cases[i].up;
+        OK(good, "%s: up is %c", cases[i].file, r.figure.up);
+        Pose pose = rig_pose(&r, 5);
+        OK(angle(mat_column(pose.bone[ROLE_CHEST].r, 2), vec(0, cases[i].face, 0)) < 35, "and the chest faces %s",
+           cases[i].face > 0 ? "the sky" : "the floor");
+        OK(angle(mat_column(pose.bone[ROLE_PELVIS].r, 2), vec(0, cases[i].face, 0)) < 35, "and so does the pelvis");
+        rig_close(&r);
+    }
+}
+
+/* lafan1.bvh for five seconds, toppled about z, high over zero: nothing tells of a floor, but x is no axis for
+   up. */
+static void test_toppled(void) {
+    const char *path = in_folder("toppled.bvh");
+    FILE *in = fopen("tests/data/figure/lafan1.bvh", "r"), *out = fopen(path, "w");
+    char line[4096];
+    double x, y, z, about_z;
+    int used = 0;
+    while (fgets(line, sizeof line, in)) {
+        bool row = sscanf(line, "%lf %lf %lf %lf %n", &x, &y, &z, &about_z, &used) == 4;
+        if (row) fprintf(out, "%g 150 300 %g %s", x, about_z - 90, line + used);
+        else fputs(strstr(line, "Frame Time") ? "Frame Time: 0.5\n" : line, out);
+    }
+    fclose(in);
+    fclose(out);
+    Rig r;
+    bool good = rig_open(&r, path, NULL) && r.figure.up == 'y';
+    OK(good, "who lies along x lies: up is %c", r.figure.up);
+    rig_close(&r);
+}
+
+/* Who crouches on the toes for the whole take never shows how trunk, head and feet are at rest: the same take with a
+   human zero pose tells. */
+static void test_crouch(void) {
+    Rig told, found;
+    if (!OK(rig_open(&told, "tests/data/figure/crouch_tpose.bvh", NULL) &&
+                rig_open(&found, "tests/data/figure/crouch.bvh", NULL), "crouchers open")) return;
+    OK(turn_difference(&told, &found, ROLE_PELVIS) < 7, "a crouching pelvis turns the same way without a zero pose");
+    OK(turn_difference(&told, &found, ROLE_CHEST) < 3, "and the chest");
+    OK(turn_difference(&told, &found, ROLE_HEAD) < 13, "and the head");
+    OK(foot_difference(&told, &found) < 4, "and the feet point the same way, that never stand flat");
+    rig_close(&told);
+    rig_close(&found);
+}
+
+/* The same crouch with a T-pose in front: that frame tells as much as a human zero pose. */
+static void test_pose_in_front(void) {
+    Rig told, found;
+    if (!OK(rig_open(&told, "tests/data/figure/crouch_tpose.bvh", NULL) &&
+                rig_open(&found, "tests/data/figure/crouch_calibrated.bvh", NULL), "calibrated crouchers open")) return;
+    double most = 0;
+    for (int frame = 0; frame < told.motion.nframes; frame++) {
+        Pose p = rig_pose(&told, frame), q = rig_pose(&found, frame + 1);
+        for (int r = 0; r < ROLE_COUNT; r++) most = fmax(most, turned(p.bone[r].r, q.bone[r].r));
+    }
+    OK(strcmp(found.figure.rest, "T-pose in frame 1") == 0, "rest: %s", found.figure.rest);
+    OK(most < 0.5, "behind a T-pose every bone turns as with a human zero pose (%.2f degrees)", most);
+    NEAR(found.figure.height, told.figure.height, 1e-4, "and the stature is the same");
+    rig_close(&told);
+    rig_close(&found);
+}
+
+/* Writes a motion of a rig again, its head turned about its own x by so many degrees in all frames. */
+static void write_turned_head(Rig *r, const char *from, const char *path, double degrees) {
+    FILE *in = fopen(from, "r"), *out = fopen(path, "w");
+    char line[4096];
+    do fputs(fgets(line, sizeof line, in), out);
+    while (!strstr(line, "Frame Time"));
+    const Joint *head = &r->motion.skeleton.joint[r->roles.joint[ROLE_HEAD]];
+    for (int frame = 0; frame < r->motion.nframes; frame++) {
+        if (!motion_row(r->reader, frame, r->row, &r->e)) break;
+        for (int c = 0; c < head->nchannels; c++)
+            if (head->channel[c] == CHANNEL_RX) r->row[head->first_channel + c] += degrees;
+        for (int c = 0; c < r->motion.skeleton.nchannels; c++) fprintf(out, "%.9g ", r->row[c]);
+        fprintf(out, "\n");
+    }
+    fclose(in);
+    fclose(out);
+}
+
+/* Who looks aside for the whole take is not taken for one who looks ahead. */
+static void test_look_aside(void) {
+    const char *ahead = "tests/data/figure/lafan1.bvh", *path = in_folder("aside.bvh");
+    Rig told, found;
+    if (!OK(rig_open(&told, ahead, NULL), "lafan1 opens")) return;
+    write_turned_head(&told, ahead, path, 40);
+    OK(rig_open(&found, path, NULL), "and with its head turned");
+    NEAR(turn_difference(&told, &found, ROLE_HEAD), 40, 2, "a head that is turned aside in all frames is aside");
+    rig_close(&told);
+    rig_close(&found);
+}
+
+/* Feet lie along the shins of one who kneels, and look back: a moment of standing tells where they point. */
+static void test_kneel(void) {
+    Rig told, found;
+    if (!OK(rig_open(&told, "tests/data/figure/kneel_tpose.bvh", NULL) &&
+                rig_open(&found, "tests/data/figure/kneel.bvh", NULL), "kneelers open")) return;
+    double off = foot_difference(&told, &found);
+    OK(off < 16, "the feet of one who kneels point the same way without a zero pose (%.1f degrees)", off);
+    rig_close(&told);
+    rig_close(&found);
+}
+
+int main(void) {
+    if (!folder_make()) return 1;
+    test_lying();
+    test_toppled();
+    test_crouch();
+    test_pose_in_front();
+    test_look_aside();
+    test_kneel();
+    folder_remove();
+    return tap_done();
+}
