@@ -188,9 +188,9 @@ static Mat3 chest_from_bones(const Binder *b, Mat3 bind) {
     return vec_len(neck) > SAYS * b->f->height ? lean_within(bind, neck, 0) : bind;
 }
 
-/* On the mean over all frames people look ahead and their heads are level; but for whole takes they may look down or
-   aside. Where bones lie along an axis the zero pose stretches the trunk, and the frames of head and chest are parallel.
-   So of what the frames say of a head that is near to that only the nod counts, and not too much of it. */
+/* On the mean over all frames people look ahead and their heads are level; but some look down or aside for a whole
+   take. Where bones lie along an axis the zero pose stretches the trunk, and the frames of head and chest are
+   parallel. So of what the frames say of a head that is near to that only the nod counts, and not too much of it. */
 static Mat3 head_from_chest(const Binder *b) {
     static const double NEAR = 0.5, NODS = 0.3; /* cosine; radians */
     int all[SAMPLE_FRAMES_MAX];
