@@ -283,8 +283,19 @@ static Mat3 foot_from_rest(const Binder *b, Role foot, const Rest *rest) {
     return sole(along, astride || flipped ? up_of_sole(b, foot, along) : up, asin(fall));
 }
 
+/* Of feet that lie along the shins throughout, as of those who crawl: they have their left where the hips have it. */
+static Vec3 up_by_hips(const Binder *b, Role foot, Vec3 along) {
+    const int *j = b->f->roles.joint;
+    Vec3 left = {0, 0, 0}, hips = mat_column(b->f->bind[ROLE_PELVIS].r, 0);
+    for (int i = 0; i < b->sample->count; i++) {
+        Vec3 aside = mat_apply(turn(b, i, j[ROLE_PELVIS]), hips);
+        left = vec_add(left, mat_apply(mat_transpose(turn(b, i, j[foot])), aside));
+    }
+    return vec_unit_or(vec_cross(along, left), vec(0, 1, 0));
+}
+
 /* From frames in which the foot stands: how far its line falls there, within what is usual. False where the foot has no
-   end, or points along the shin. */
+   end. */
 static bool foot_from_frames(const Binder *b, Role foot, Mat3 *bind) {
     static const double UNUSUAL = 0.2;
     int joint = b->f->roles.joint[foot], tip = ball(b, foot), frames[SAMPLE_BEST_MAX];
@@ -292,7 +303,11 @@ static bool foot_from_frames(const Binder *b, Role foot, Mat3 *bind) {
     Vec3 along = seen_from(b, joint, tip);
     double size = vec_len(along), slope = 0, usual = asin(clamp(FIGURE_FOOT_RISE * b->f->height / size, 0, 0.7));
     along = vec_scale(along, 1 / size);
-    if (!(size > 0) || vec_len(vec_cross(up_the_shin(b, foot, along), along)) < 0.3) return false;
+    if (!(size > 0)) return false;
+    if (vec_len(vec_cross(up_the_shin(b, foot, along), along)) < 0.3) {
+        *bind = sole(along, up_by_hips(b, foot, along), usual);
+        return true;
+    }
     int n = standing(b, foot, frames);
     for (int i = 0; i < n; i++) slope += asin(clamp(-mat_apply(turn(b, frames[i], joint), along).y, -1, 1)) / n;
     *bind = sole(along, up_of_sole(b, foot, along), clamp(slope, usual - UNUSUAL, usual + UNUSUAL));
