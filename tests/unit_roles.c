@@ -235,6 +235,24 @@ static void test_refused(void) {
     rig_close(&r);
 }
 
+/* A chest with two arms, and nothing else. */
+static const char *put_arms(void) {
+    static const char *const sides[] = {"Left", "Right"}, *const bones[] = {"Arm", "ForeArm", "Hand"};
+    static const int length[] = {18, 28, 26};
+    FILE *f = fopen(in_folder("arms.bvh"), "w");
+    if (!f) return "";
+    fputs("HIERARCHY\nROOT Chest\n{\nOFFSET 0 0 0\nCHANNELS 0\n", f);
+    for (int k = 0; k < 2; k++) {
+        for (int b = 0; b < 3; b++)
+            fprintf(f, "JOINT %s%s\n{\nOFFSET %d 0 0\nCHANNELS 1 Xrotation\n", sides[k], bones[b],
+                    k ? -length[b] : length[b]);
+        fprintf(f, "End Site\n{\nOFFSET %d 0 0\n}\n}\n}\n}\n", k ? -10 : 10);
+    }
+    fputs("}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0 0 0 0\n", f);
+    fclose(f);
+    return in_folder("arms.bvh");
+}
+
 static void test_not_human(void) {
     Rig r;
     bool good = rig_roles(&r, "tests/data/figure/hand.bvh", NULL);
@@ -243,6 +261,10 @@ static void test_not_human(void) {
     good = rig_roles(&r, "tests/data/figure/legs_only.bvh", NULL);
     OK(!good && strstr(r.e.text, "roles: chest, left_upper_arm, left_forearm, right_upper_arm, right_forearm"),
        "legs alone are refused, and only what is missing is named");
+    rig_close(&r);
+    good = rig_roles(&r, put_arms(), NULL);
+    OK(!good && strstr(r.e.text, "roles: pelvis, left_thigh, left_shin, right_thigh, right_shin"), "nor do arms: %s",
+       r.e.text);
     rig_close(&r);
     static const char *const refused[][2] = {
         {"dog", "a dog is refused, though its joints have the names of a human's"},
