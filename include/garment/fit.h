@@ -42,8 +42,8 @@ typedef struct {
     unsigned pinned; /* sides that may not move, bit 1 << Side */
 } FitPatch;
 
-/* What the envelope needs of a ring, in the canonical stance. */
-typedef struct { double y, side, front, back, x, z; } FitRing;
+/* What the envelope needs of a ring, in the canonical stance: where its centre is (y, z), and its half sizes. */
+typedef struct { double y, side, front, back, z; } FitRing;
 
 typedef struct {
     const Garment *garment;

@@ -19,7 +19,6 @@ typedef struct {
 
 typedef struct {
     const Garment *g;
-    const Figure *figure;
     const Body *body;
     Fit *fit;
     Arena *arena;
@@ -90,7 +89,7 @@ static bool place_ring(Tailor *t, int r, Error *e) {
     f->side.y *= measure.y / measure.x; /* what is given in breadths stands in lengths there */
     f->front = vec_scale(mat_apply(tilt, z), s.front + ease);
     f->back = vec_scale(mat_apply(tilt, z), s.back + ease);
-    t->fit->ring[r] = (FitRing){f->centre.y, s.side + ease, s.front + ease, s.back + ease, f->centre.x, f->centre.z};
+    t->fit->ring[r] = (FitRing){f->centre.y, s.side + ease, s.front + ease, s.back + ease, f->centre.z};
     return true;
 }
 
@@ -376,7 +375,7 @@ static void complete_colliders(Fit *f) {
 
 bool fit_garment(const Garment *garment, const Figure *figure, const Body *body, Arena *arena, Fit *out, Error *e) {
     *out = (Fit){.garment = garment, .scale = body->scale, .height = figure->height};
-    Tailor t = {.g = garment, .figure = figure, .body = body, .fit = out, .arena = arena};
+    Tailor t = {.g = garment, .body = body, .fit = out, .arena = arena};
     int npatches = garment->npatches;
     for (int p = 0; p < garment->npanels; p++) npatches += garment->panel[p].nrows - 1;
     out->patch = ARENA_NEW(arena, FitPatch, npatches, e);
