@@ -66,7 +66,7 @@ static void test_reference(void) {
 static const char *const families[] = {
     "smpl", "unity", "vrm", "xsens", "rigify", "genesis", "neuron", "acclaim_names", "optitrack", "kinect", "mmd",
     "opensim", "nameless", "lafan1", "unreal", "biped", "cat", "nameless_axis",
-    "swapped", "weapon", "zero_offsets", "chest_root", "nameless_split", "astride",
+    "swapped", "weapon", "zero_offsets", "chest_root", "nameless_split", "astride", "captured",
 };
 
 /* The largest angle between a bone of two poses, over the frames. Only limb bones have a direction

@@ -37,10 +37,20 @@ static bool torso_is_human(const Figure *f, Rest *rest) {
     return true;
 }
 
+/* The bone in the axes of the body, and how far it is from the mirror image of the one on the other side. */
+static double lopsided(const Figure *f, const Rest *rest, Role role, Vec3 *bone) {
+    Mat3 to_body = mat_transpose(rest->frame);
+    Vec3 other = mat_apply(to_body, rest_bone(rest, f, role_mirror(role)));
+    *bone = mat_apply(to_body, rest_bone(rest, f, role));
+    return vec_dist(*bone, vec(-other.x, other.y, other.z));
+}
+
+/* Where an exporter has taken a frame of the motion for the zero pose, legs stride. */
 static bool legs_are_human(const Figure *f, const Rest *rest) {
     static const Role bones[] = {ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN};
+    Vec3 bone;
     for (int i = 0; i < 4; i++)
-        if (vec_dot(rest_bone(rest, f, bones[i]), mat_column(rest->frame, 1)) > -0.8) return false;
+        if (lopsided(f, rest, bones[i], &bone) > 0.25 || bone.y > -0.8) return false;
     for (int side = 0; side < 2; side++) {
         Role foot = side ? ROLE_RIGHT_FOOT : ROLE_LEFT_FOOT;
         if (f->toward[foot] < 0) continue;
@@ -51,12 +61,9 @@ static bool legs_are_human(const Figure *f, const Rest *rest) {
 }
 
 static bool arms_are_human(const Figure *f, const Rest *rest) {
-    Mat3 to_body = mat_transpose(rest->frame);
-    for (int r = ROLE_LEFT_UPPER_ARM; r <= ROLE_LEFT_FOREARM; r++) {
-        Vec3 left = mat_apply(to_body, rest_bone(rest, f, (Role)r));
-        Vec3 right = mat_apply(to_body, rest_bone(rest, f, role_mirror((Role)r)));
-        if (left.y > 0.5 || left.x < -0.3 || vec_dist(left, vec(-right.x, right.y, right.z)) > 0.5) return false;
-    }
+    Vec3 left;
+    for (int r = ROLE_LEFT_UPPER_ARM; r <= ROLE_LEFT_FOREARM; r++)
+        if (lopsided(f, rest, (Role)r, &left) > 0.5 || left.y > 0.5 || left.x < -0.3) return false;
     return true;
 }
 
