@@ -188,16 +188,26 @@ static Mat3 chest_from_bones(const Binder *b, Mat3 bind) {
     return vec_len(neck) > SAYS * b->f->height ? lean_within(bind, neck, 0) : bind;
 }
 
+/* Do neck and head continue each other in the zero pose, as where bones lie along an axis? */
+static bool neck_is_stretched(const Binder *b) {
+    const int *j = b->f->roles.joint;
+    int base = j[ROLE_NECK] >= 0 ? j[ROLE_NECK] : j[ROLE_CHEST], below = b->skeleton->joint[base].parent;
+    if (below < 0) return false;
+    const Rigid *zero = b->sample->zero;
+    Vec3 up = vec_unit_or(vec_sub(zero[base].t, zero[below].t), vec(0, 0, 0));
+    return vec_dot(up, vec_unit_or(vec_sub(zero[j[ROLE_HEAD]].t, zero[base].t), up)) > 0.9;
+}
+
 /* On the mean over all frames people look ahead and their heads are level; but some look down or aside for a whole
-   take. Where bones lie along an axis the zero pose stretches the trunk, and the frames of head and chest are
-   parallel. So of what the frames say of a head that is near to that only the nod counts, and not too much of it. */
+   take. Where the zero pose stretches the trunk, the frames of head and chest are parallel. So of what the frames
+   say of a head that is near to that only the nod counts, and not too much of it. */
 static Mat3 head_from_chest(const Binder *b) {
     static const double NEAR = 0.5, NODS = 0.3; /* cosine; radians */
     int all[SAMPLE_FRAMES_MAX];
     for (int i = 0; i < b->sample->count; i++) all[i] = i;
     Mat3 level = bind_like(b, all, b->sample->count, b->f->roles.joint[ROLE_HEAD], ROLE_CHEST);
     Mat3 chest = b->f->bind[ROLE_CHEST].r;
-    if (vec_dot(mat_column(chest, 0), mat_column(level, 0)) < NEAR) return level;
+    if (!neck_is_stretched(b) || vec_dot(mat_column(chest, 0), mat_column(level, 0)) < NEAR) return level;
     return lean_within(lean_within(chest, mat_column(level, 1), 0), mat_column(chest, 1), NODS);
 }
 
