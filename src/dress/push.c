@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* Caps and tolerances, metres on a figure of 1.70 m where they are lengths. */
-enum { SWEEPS_MAX = 30, STALL = 5, ROUNDS_MAX = 3 };
+enum { SWEEPS_MAX = 30, STALL = 3, ROUNDS_MAX = 3 };
 static const double REACH = 0.04;    /* vertices farther from the body are not swept */
 static const double SLACK = 0.1;     /* share of the clearance that may be missing after sweeps; settling makes
                                         up for it */
