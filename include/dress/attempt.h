@@ -38,6 +38,9 @@ Outcome attempt_push(Cloth *c, const BodyFrame *body, FrameStats *stats);
 /* The same for the global shape itself. */
 Outcome attempt_rest(Cloth *c, const BodyFrame *body, FrameStats *stats);
 
+/* Is so much left of the parts that the garment is worn over that there is no room for it, however it is pushed? */
+bool attempt_is_hopeless(const Cloth *c, const Outcome *o);
+
 /* Tests the cloth where it is now. */
 Wrong attempt_test(Cloth *c, const BodyFrame *body, FrameStats *stats);
 

@@ -12,6 +12,7 @@
    vertices that were asked. */
 enum { ROUNDS_MAX = 9, SOLVE_EVERY = 3 };
 enum { MANY = 4 }; /* where more than this part of the vertices has moved, the whole mesh is tested */
+static const double HOPELESS = 0.03;/* residuals per edge of the mesh: nothing has ever mended that many */
 static const double HEADWAY = 0.7;  /* of the bad vertices may be left after a solution, or it is given up */
 static const double RAISE = 0.002;  /* metres of clearance added in a round where something crosses, on 1.70 m */
 enum { FLAT_ROUNDS = 4, FLAT_MOST = 256 };
@@ -82,6 +83,10 @@ static void push_off(Cloth *c, const BodyFrame *body, bool all, PushResult *resu
     else settle_raised(&c->settler, &c->push, body, &c->sheet, &result->capped);
 }
 
+bool attempt_is_hopeless(const Cloth *c, const Outcome *o) {
+    return residual_total(&o->wrong.own) > HOPELESS * c->sheet.nedges;
+}
+
 /* What a limb from outside is left with is not mended at the price of a part that the garment is worn over: a round
    that brings such a part to show is taken back. */
 Outcome attempt_push(Cloth *c, const BodyFrame *body, FrameStats *stats) {
@@ -100,8 +105,8 @@ Outcome attempt_push(Cloth *c, const BodyFrame *body, FrameStats *stats) {
         if (is_spoilt) out.wrong = test_raised(c, body, out.wrong, stats);
         bool raised = !is_spoilt && raise_bad(c, round);
         stats->test_s += clock_lap(&start);
-        bool hopeless = solve && (is_clean || c->tester.nbad > HEADWAY * before);
-        if (!raised || round == ROUNDS_MAX || hopeless) break; /* nothing has moved since the test */
+        bool give_up = solve && (is_clean || attempt_is_hopeless(c, &out) || c->tester.nbad > HEADWAY * before);
+        if (!raised || round == ROUNDS_MAX || give_up) break; /* nothing has moved since the test */
         if (solve) before = c->tester.nbad;
         all_moved = solve || c->settler.nraised > c->sheet.nvertices / MANY;
         was_clean = is_clean;

@@ -10,7 +10,6 @@
 static const double FAR = 0.65;     /* of the cap: cloth thrown farther than that, while something was left, is laid */
 static const double CLOSER = 0.6;   /* anew, and stays there if that share of the way does as well */
 static const double THROWN = 2;     /* residuals of cloth at the cap count 1 + this */
-static const double HOPELESS = 0.03;/* residuals per edge of the mesh: no attempt has ever mended that many */
 /* How far a level is moved against the next finer one: in a tight garment less, so that a place that is pinched
    carries less of its neighbours away; a loose one gives way as a whole. */
 static const double TIGHT = 0.7, LOOSE = 1;
@@ -81,7 +80,7 @@ static bool is_better(const Outcome *a, const Outcome *b, double cap) {
 static bool is_wanting(const Solver *s, const Outcome *o, int attempt) {
     int own = residual_total(&o->wrong.own);
     if (attempt == FRESH) return own > 0 || (s->is_thrown && is_far(o, s->cloth.push.field.cap));
-    return own > 0 && own <= HOPELESS * s->cloth.sheet.nedges;
+    return own > 0 && !attempt_is_hopeless(&s->cloth, o);
 }
 
 static Wrong push_and_test(Solver *s, const BodyFrame *body, FrameStats *stats) {
