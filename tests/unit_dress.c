@@ -215,6 +215,20 @@ static void neckline_opens(Specimen *s) {
     OK(cracks == 0 && wrong == 0, "the borders of a neckline part at an angle in any of 20 poses");
 }
 
+/* Without a local deformation there are two tests, the classification and the last one; their pairs are known. */
+static void pairs_are_counted(Scene *s, const char *name) {
+    Dresser *d = scene_dresser(s, (DressOptions){.method = METHOD_GLOBAL, .split = SPLIT_NONE});
+    Pose rest = figure_rest_pose();
+    Mesh mesh;
+    FrameStats stats = scene_frame(s, d, &rest, 0, TIE_AFRESH, &mesh);
+    const Mesh *skin = &s->body.skin;
+    long long last = (long long)skin->nedges * mesh.ntriangles + (long long)mesh.nedges * skin->ntriangles;
+    OK(stats.pairs_all == stats.tests + last, "%s: %lld pairs of edge and triangle in two tests, %lld told", name,
+       stats.tests + last, stats.pairs_all);
+    OK(stats.pairs_tested >= stats.tests_culled && stats.pairs_tested < stats.pairs_all / 100,
+       "of which %lld are looked at", stats.pairs_tested);
+}
+
 int main(void) {
     static const int openings[NSHIPPED] = {2, 2, 3, 4};
     for (int k = 0; k < NSHIPPED; k++) {
@@ -226,6 +240,7 @@ int main(void) {
         outward(&c, SHIPPED[k]);
         if (strcmp(SHIPPED[k], "tshirt") == 0) neckline_opens(&c);
         rest_is_clear(&c, SHIPPED[k]);
+        pairs_are_counted(&c.scene, SHIPPED[k]);
         arena_free(&c.scene.arena);
     }
     return tap_done();
