@@ -8,10 +8,21 @@
    a triangular window; such a convolution has a closed form. */
 #include "dress/envelope.h"
 
-/* Reasons: half the shin's turn keeps the hem from folding behind a bent knee (1 folds it, 0 lets
-   the shins out); 10 cm of rounding is a thigh's radius; the ring may not turn past the seat. */
-static const double SHIN_SHARE = 0.5, ROUNDING_CM = 10, TURN_LIMIT = 115 * PI / 180;
+/* Lengths are in centimetres of a figure of 1.70 m. */
+static const double SHIN_SHARE = 0.5;  /* of the shin's turn: 1 folds the hem behind a bent knee, 0 lets the shin out */
+static const double ROUNDING_CM = 10;  /* of the kinks: a thigh's radius */
+static const double TURN_LIMIT = 115 * PI / 180; /* a ring may not turn past the seat */
 static const double SLANT_LIMIT = 0.4; /* cosine: a leg's section by the plane of a ring grows no longer than at that */
+static const double ABOVE_CM = 8, BELOW_CM = 10; /* the hip joints: between them rings turn from pelvis to legs */
+static const double LEG_ROOM_CM = 2.2; /* round a leg that a ring holds: the leg swings in it */
+static const double APART_CM = 3;      /* what is left of the width between legs that cross */
+static const double SPARE_CM2 = 10;    /* corner of the cloth that legs leave: it runs out softly */
+static const double LAP_LEAST_CM = 14, LAP_MOST_CM = 26; /* below the hip joints: where the lap of a bent hip begins */
+static const double LAP_CORNER_CM = 2;
+/* Flexion of a hip over which the front comes to hang, and over which it is gathered: a thigh that is level rests under
+   it, one beyond comes to the belly. Beyond a third range it was bent forwards, however it looks from the side. */
+static const double HANGS[2] = {30 * PI / 180, 75 * PI / 180}, GATHERS[2] = {75 * PI / 180, 120 * PI / 180};
+static const double SURELY_FORWARDS[2] = {120 * PI / 180, 150 * PI / 180};
 
 /* Convolution of max(0, x) with a unit triangle of half width r, and its derivative. */
 static double ramp(double x, double r) {
@@ -116,11 +127,11 @@ static double soft_positive(double x, double r) { return 0.5 * (x + sqrt(x * x +
    can. Legs that cross keep a little of the width between them. */
 static Sym2 ring_ellipse(const Envelope *env, const FitRing *rest, double rho, double dx, double dz, Sym2 leg,
                          double share) {
-    double cm = env->cm, depth = 0.5 * (rest->front + rest->back), apart = 3 * cm;
+    double cm = env->cm, depth = 0.5 * (rest->front + rest->back), apart = APART_CM * cm;
     leg.xx += fmax(apart * apart - dx * dx, 0);
     Sym2 need = hold_both(dx, dz, leg), calm = hold_both(env->rest_hip, 0, cut_leg(rho, 0, 0));
     double nx = fmax(rest->side * rest->side - calm.xx, cm * cm), nz = fmax(depth * depth - calm.zz, cm * cm);
-    double spare = soft_positive(rest->side * rest->side + depth * depth - need.xx - need.zz, 10 * cm * cm);
+    double spare = soft_positive(rest->side * rest->side + depth * depth - need.xx - need.zz, SPARE_CM2 * cm * cm);
     double wx = spare * nx / (nx + nz), wz = spare * nz / (nx + nz);
     return (Sym2){share * (need.xx + wx) + (1 - share) * rest->side * rest->side, share * need.xz,
                   share * (need.zz + wz) + (1 - share) * depth * depth};
@@ -145,7 +156,7 @@ static Vec3 cut_path(const Envelope *env, Vec3 p, Vec3 t, Vec3 at, Vec3 n) {
 
 /* The ring that turns with the legs. */
 static Vec3 turning_point(const Envelope *env, double s, double x, double z) {
-    double cm = env->cm, share = smoothstep(-8 * cm, 10 * cm, s);
+    double cm = env->cm, share = smoothstep(-ABOVE_CM * cm, BELOW_CM * cm, s);
     Vec3 tangent[2], path[2];
     for (int leg = 0; leg < 2; leg++) path[leg] = leg_path(env, leg, s, &tangent[leg]);
     Vec3 t = vec_scale(vec_add(tangent[0], tangent[1]), share);
@@ -156,7 +167,8 @@ static Vec3 turning_point(const Envelope *env, double s, double x, double z) {
     for (int leg = 0; leg < 2; leg++) path[leg] = cut_path(env, path[leg], tangent[leg], middle, up);
     FitRing rest = rest_size(env, s);
     Vec3 half = vec_scale(vec_sub(path[0], path[1]), 0.5), slant = vec_scale(vec_sub(tangent[0], tangent[1]), 0.5);
-    double rho = leg_radius(env, s) + 2.2 * cm + 0.25 * fabs(rest.front - rest.back);
+    /* Rings stand before or behind the legs by half of what front and back differ: for half of that there is room. */
+    double rho = leg_radius(env, s) + LEG_ROOM_CM * cm + 0.25 * fabs(rest.front - rest.back);
     Sym2 leg = cut_leg(rho, vec_dot(slant, ax), vec_dot(slant, az));
     Sym2 m = root_of(ring_ellipse(env, &rest, rho, vec_dot(half, ax), vec_dot(half, az), leg, share));
     Vec3 centre = vec_lerp(vec_mad(env->root, env->down, s), vec_mid(path[0], path[1]), share);
@@ -184,7 +196,7 @@ Vec3 envelope_point(const Envelope *env, double s, double x, double z) {
     if (bend.hangs <= 0) return turning;
     /* Rings of a bent hip cross in the groin; there the front hangs straight from the pelvis to
        where the lap begins, and the back keeps the rings that wrap the seat. */
-    double top = envelope_place(env, 0), beyond = bend.lap + soft_positive(s - bend.lap, 2 * env->cm);
+    double top = envelope_place(env, 0), beyond = bend.lap + soft_positive(s - bend.lap, LAP_CORNER_CM * env->cm);
     double down = smoothstep(top, bend.lap, s), from = s < top ? s : lerp(s, top, bend.gathers);
     Vec3 linear = vec_lerp(pelvis_point(env, from, x, z), turning_point(env, beyond, x, z), down);
     return vec_lerp(turning, linear, bend.hangs);
@@ -195,13 +207,13 @@ Vec3 envelope_point(const Envelope *env, double s, double x, double z) {
 static double flexion_of(const Envelope *env, Vec3 thigh) {
     double down = clamp(vec_dot(thigh, env->down), -1, 1), flexion = acos(down);
     double forwards = vec_dot(thigh, mat_column(env->pelvis, 2)) / fmax(sqrt(1 - down * down), 1e-6);
-    return flexion * fmax(smoothstep(0, 0.5, forwards), smoothstep(120 * PI / 180, 150 * PI / 180, flexion));
+    return flexion * fmax(smoothstep(0, 0.5, forwards), smoothstep(SURELY_FORWARDS[0], SURELY_FORWARDS[1], flexion));
 }
 
 /* Where the lap begins: a thigh bent far lies against the belly, and comes out of it farther down. */
 static double lap_of(const Envelope *env, double flexion) {
     FitRing waist = rest_size(env, envelope_place(env, 0));
-    double least = 14 * env->cm, most = 26 * env->cm;
+    double least = LAP_LEAST_CM * env->cm, most = LAP_MOST_CM * env->cm;
     if (flexion < 0.5 * PI) return least;
     double out = (waist.z + waist.front - leg_radius(env, 0) * cos(flexion)) / fmax(sin(flexion), 0.3);
     return clamp(out, least, most);
@@ -209,8 +221,8 @@ static double lap_of(const Envelope *env, double flexion) {
 
 static Bend bend_of(const Envelope *env, Vec3 thigh, Vec3 mean) {
     double flexion = flexion_of(env, thigh), most = fmax(flexion, flexion_of(env, mean));
-    return (Bend){.hangs = smoothstep(30 * PI / 180, 75 * PI / 180, most),
-                  .gathers = smoothstep(75 * PI / 180, 120 * PI / 180, flexion),
+    return (Bend){.hangs = smoothstep(HANGS[0], HANGS[1], most),
+                  .gathers = smoothstep(GATHERS[0], GATHERS[1], flexion),
                   .lap = lap_of(env, flexion)};
 }
 
