@@ -138,6 +138,47 @@ static void no_means_no(void) {
     OK(no > 1000 && no < asked && wrong == 0, "parts give way nowhere that they may not (%d of %d)", no, asked);
 }
 
+/* Two parts with plane surfaces: what is left of the one's distance at a point. */
+typedef struct { Contact contact; Vec3 normal, away; double distance, other; } Planes;
+
+static double left_at(const Planes *p, Vec3 at, Meeting *m) {
+    *m = (Meeting){at, p->distance + vec_dot(p->normal, at), p->other + vec_dot(p->away, at), p->normal, p->away};
+    return m->distance + yield_by(&p->contact, YIELD_ROOM, m);
+}
+
+static Vec3 slope_at(const Planes *p, Vec3 at, double step) {
+    Meeting m;
+    double x = left_at(p, vec_add(at, vec(step, 0, 0)), &m), y = left_at(p, vec_add(at, vec(0, step, 0)), &m);
+    double z = left_at(p, vec_add(at, vec(0, 0, step)), &m), here = left_at(p, at, &m);
+    return vec_scale(vec(x - here, y - here, z - here), 1 / step);
+}
+
+/* Where a part gives way its normal is the way in which what is left of its distance grows. */
+static void normals_are_slopes(void) {
+    int tried = 0, capped = 0, folded = 0;
+    double worst = 0;
+    for (int k = 0; k < 40000; k++) {
+        Planes p = {.normal = direction(), .away = direction(), .distance = 0.02 * (dice_unit() - 0.8),
+                    .other = 0.02 * (dice_unit() - 0.8)};
+        Contact other;
+        bool bends = k % 2;
+        Role a = bends ? ROLE_LEFT_THIGH : ROLE_LEFT_HAND, b = bends ? ROLE_LEFT_SHIN : ROLE_PELVIS;
+        yield_contact(a, b, 1, &p.contact, &other);
+        if (bends) yield_fold(vec_scale(direction(), 0.05), direction(), direction(), 0.05, &p.contact, &other);
+        Vec3 at = vec_scale(direction(), 0.01), there = slope_at(&p, at, 1e-8), back = slope_at(&p, at, -1e-8);
+        Meeting m;
+        double by = left_at(&p, at, &m) - m.distance;
+        if (by <= 0 || vec_dist(there, back) > 1e-5 || vec_len(there) < 0.01) continue; /* an edge, or no way out */
+        tried++;
+        capped += by >= p.contact.most * (1 - 1e-12);
+        folded += bends && p.contact.fold.bottom > 0;
+        worst = fmax(worst, vec_dist(vec_unit_or(there, at), yield_normal(&p.contact, YIELD_ROOM, &m)));
+    }
+    OK(worst < 1e-4 && capped > 100 && folded > 100 && tried - capped - folded > 100,
+       "normals are slopes (off by %.2g in %d places, %d of them at the most, %d in a fold)", worst, tried, capped,
+       folded);
+}
+
 /* It is a function of the pose that has no jumps: a degree more never moves the skin by a centimetre. */
 static void no_jumps(Scene *s) {
     Arena arena = {0};
@@ -212,6 +253,7 @@ int main(void) {
     scene_open(&s, "skirt");
     shares();
     no_means_no();
+    normals_are_slopes();
     free_skin_stays(&s);
     room_is_made(&s);
     skin_is_the_surface(&s);
