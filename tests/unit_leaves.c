@@ -53,6 +53,41 @@ static void sheet_is_the_surface(const char *name, Push *push, const Leaves *lea
        worst_normal);
 }
 
+/* The edge between two vertices, -1: it is not listed. */
+static int edge_between(const Edge *edge, int n, int a, int b) {
+    int k = 0;
+    while (k < n && (edge[k].v[0] != (a < b ? a : b) || edge[k].v[1] != (a < b ? b : a))) k++;
+    return k < n ? k : -1;
+}
+
+/* Walks round every leaf, from vertex to vertex of the sheet: the edges on the way are the borders, and all of them. */
+static void borders_go_round(const char *name, const Sheet *sheet, const Leaves *leaves, const Edge *border, int n) {
+    static const int way[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    const Lattice *l = sheet->lattice;
+    int cells = 1 << l->depth, missing = 0, walked = 0;
+    bool *met = calloc((size_t)n, sizeof *met);
+    for (int at = 0; at < lattice_cells(l); at++) {
+        int p = at / (cells * cells), x = at / cells % cells, y = at % cells, level = leaf_at(leaves, p, x, y);
+        int i = x * l->detail, j = y * l->detail, size = l->side >> (level < 0 ? 0 : level);
+        int last = sheet->vertex[lattice_place(l, p, i, j)];
+        for (int k = 0; level >= 0 && k < 4 * size; k++) {
+            i += way[k / size][0], j += way[k / size][1];
+            int v = sheet->vertex[lattice_place(l, p, i, j)];
+            if (v < 0 || v == last) continue; /* none here, or a pole */
+            int edge = edge_between(border, n, last, v);
+            walked++;
+            missing += edge < 0;
+            if (edge >= 0) met[edge] = true;
+            last = v;
+        }
+    }
+    int needless = 0;
+    for (int b = 0; b < n; b++) needless += !met[b];
+    free(met);
+    OK(missing == 0 && needless == 0, "%s: %d edges round the leaves, %d are missing, %d needless", name, walked,
+       missing, needless);
+}
+
 static void leaves_are_the_surface(const char *name) {
     Specimen c;
     Push push;
@@ -103,6 +138,7 @@ static void leaves_are_the_surface(const char *name) {
     for (int p = 0; p < npatches; p++)
         for (int k = 0; k < 4; k++)
             lost += !seen[sheet->vertex[lattice_place(lattice, p, k / 2 * lattice->side, k % 2 * lattice->side)]];
+    borders_go_round(name, sheet, leaves, border, count);
     OK(sound && lost == 0, "%s: %d edges on borders, each once, and every corner of a patch on them", name, count);
     arena_free(&s->arena);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "dice.h"
+#include "geometry/boxtree.h"
 #include "scene.h"
 
 /* A cloth that lies in the body: the skin of hips and trunk, each vertex a little inwards or outwards. */
@@ -86,6 +87,41 @@ static void move_some(Sunk *c, int most) {
        w.count.hits, w.own.inside + w.other.inside);
 }
 
+/* How far x is from the skin of a part, by all of its triangles. */
+static double from_skin(const BodyFrame *body, int part, Vec3 x) {
+    const BodyPart *p = &body->body->part[part];
+    double least = INFINITY;
+    for (int t = p->first_triangle; t < p->first_triangle + p->ntriangles; t++) {
+        const int *v = body->body->skin.triangle[t].v;
+        Vec3 near = boxtree_triangle_point(x, body->position[v[0]], body->position[v[1]], body->position[v[2]]);
+        least = fmin(least, vec_dist(x, near));
+    }
+    return least;
+}
+
+/* A hit is told by the weights of its vertices: a point of the cloth that lies on the part. */
+static void know_where(Sunk *c) {
+    const BodyFrame *body = &c->scene.posed;
+    int wrong = 0;
+    double farthest = 0;
+    Wrong w = tester_test(&c->anew, body, &c->mesh, NULL);
+    for (int k = 0; k < c->anew.nhits; k++) {
+        const TesterHit *hit = &c->anew.hit[k];
+        Vec3 x = {0, 0, 0};
+        double sum = 0, least = 1;
+        for (int i = 0; i < hit->n; i++) {
+            x = vec_mad(x, c->mesh.position[hit->v[i]], hit->weight[i]);
+            sum += hit->weight[i];
+            least = fmin(least, hit->weight[i]);
+        }
+        wrong += least < 0 || fabs(sum - 1) > 1e-12;
+        farthest = fmax(farthest, from_skin(body, hit->part, x));
+    }
+    OK(c->anew.nhits == w.count.hits && wrong == 0, "%d hits, whose weights are 0 or more and add up to 1",
+       c->anew.nhits);
+    OK(farthest < 1e-12, "each is on the skin of its part (%.2g m off)", farthest);
+}
+
 /* What is known to be outside is not asked again; all the rest is. */
 static void leave_out_clear(Sunk *c) {
     static bool clear[1 << 15];
@@ -106,6 +142,7 @@ int main(void) {
     move_some(&c, 20);
     move_some(&c, 700);
     leave_out_clear(&c);
+    know_where(&c);
     arena_free(&c.scene.arena);
     return tap_done();
 }
