@@ -118,9 +118,9 @@ static double smallest_area(const Specimen *s) {
     for (int t = 0; t < s->sheet.ntriangles; t++) {
         Vec3 x[3];
         for (int c = 0; c < 3; c++) {
-            int n = s->lattice.side + 1, o = s->lattice.owner[s->sheet.place[s->sheet.triangle[t].v[c]]];
-            x[c] = bezier_point(&s->root[o / (n * n)], (double)(o / n % n) / (n - 1), (double)(o % n) / (n - 1), NULL,
-                                NULL);
+            LatticeIndex at = s->lattice.owner[s->sheet.place[s->sheet.triangle[t].v[c]]];
+            x[c] = bezier_point(&s->root[at.patch], (double)at.i / s->lattice.side, (double)at.j / s->lattice.side,
+                                NULL, NULL);
         }
         least = fmin(least, vec_len(vec_cross(vec_sub(x[1], x[0]), vec_sub(x[2], x[0]))));
     }

@@ -37,7 +37,7 @@ typedef struct {
     int side;           /* detail << depth: facets per side of a root patch at the deepest level */
     int nplaces;
     int *place;         /* [patch][i * (side + 1) + j]: number of the place */
-    int *owner;         /* place -> patch * (side + 1)^2 + i * (side + 1) + j of the patch that evaluates it */
+    LatticeIndex *owner; /* place -> under which patch it is evaluated, and where in it */
     unsigned *collide;  /* place -> parts that it is worn over: those that its patches share, and of limbs the next
                            bones; all others come to it from outside */
     bool *pinned;       /* place */
@@ -55,9 +55,6 @@ static inline int lattice_place(const Lattice *l, int patch, int i, int j) {
     int n = l->side + 1;
     return l->place[(patch * n + i) * n + j];
 }
-
-/* Under which patch a place is evaluated, and where in it. */
-LatticeIndex lattice_owner(const Lattice *l, int place);
 
 /* A place on the root patches. */
 Vec3 lattice_point(const Lattice *l, const Patch *root, int place);

@@ -107,7 +107,7 @@ unsigned field_levels(const Field *f) {
 }
 
 Vec3 field_at(const Field *f, unsigned levels, int place) {
-    LatticeIndex at = lattice_owner(f->lattice, place);
+    LatticeIndex at = f->lattice->owner[place];
     Vec3 d = {0, 0, 0};
     for (int level = 0; levels >> level; level++) {
         if (!(levels >> level & 1)) continue;
@@ -119,7 +119,7 @@ Vec3 field_at(const Field *f, unsigned levels, int place) {
 
 Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place) {
     const Lattice *l = f->lattice;
-    LatticeIndex at = lattice_owner(l, place);
+    LatticeIndex at = l->owner[place];
     Vec3 du = bezier_weighted(&root[at.patch], l->basis_slope[at.i], l->basis[at.j]);
     Vec3 dw = bezier_weighted(&root[at.patch], l->basis[at.i], l->basis_slope[at.j]);
     for (int level = 0; levels >> level; level++) {

@@ -105,7 +105,7 @@ static void fill_mesh(Dresser *d, Mesh *mesh) {
     int side = d->lattice.side;
     surface_normals(&d->solver.cloth.push.surface, s, &d->solver.cloth.push.field, d->root, d->normal);
     for (int v = 0; v < s->nvertices; v++) {
-        LatticeIndex at = lattice_owner(&d->lattice, s->place[v]);
+        LatticeIndex at = d->lattice.owner[s->place[v]];
         d->u[v] = (double)at.i / side;
         d->w[v] = (double)at.j / side;
     }

@@ -39,8 +39,7 @@ static bool find_twin(const Lattice *l, int patch, Side side, int *twin_patch, S
 }
 
 static int new_place(Lattice *l, int patch, int i, int j) {
-    int n = l->side + 1;
-    l->owner[l->nplaces] = (patch * n + i) * n + j;
+    l->owner[l->nplaces] = (LatticeIndex){patch, i, j};
     return l->nplaces++;
 }
 
@@ -181,7 +180,7 @@ bool lattice_build(const Fit *fit, int detail, int depth, Arena *arena, Lattice 
     int side = detail << depth, n = side + 1, most = fit->npatches * n * n;
     *out = (Lattice){.fit = fit, .detail = detail, .depth = depth, .side = side};
     out->place = ARENA_NEW(arena, int, most, e);
-    out->owner = ARENA_NEW(arena, int, most, e);
+    out->owner = ARENA_NEW(arena, LatticeIndex, most, e);
     out->collide = ARENA_NEW(arena, unsigned, most, e);
     out->pinned = ARENA_NEW(arena, bool, most, e);
     out->basis = arena_array(arena, (size_t)n, sizeof *out->basis, e);
@@ -214,13 +213,8 @@ LatticeWeights lattice_weights(const Lattice *l, int number, LatticeIndex at) {
     return out;
 }
 
-LatticeIndex lattice_owner(const Lattice *l, int place) {
-    int n = l->side + 1, o = l->owner[place];
-    return (LatticeIndex){o / (n * n), o / n % n, o % n};
-}
-
 Vec3 lattice_point(const Lattice *l, const Patch *root, int place) {
-    LatticeIndex at = lattice_owner(l, place);
+    LatticeIndex at = l->owner[place];
     return bezier_weighted(&root[at.patch], l->basis[at.i], l->basis[at.j]);
 }
 
@@ -230,7 +224,7 @@ Vec3 lattice_outwards(const Lattice *l, int patch, Vec3 du, Vec3 dw) {
 }
 
 Vec3 lattice_normal(const Lattice *l, const Patch *root, int place) {
-    LatticeIndex at = lattice_owner(l, place);
+    LatticeIndex at = l->owner[place];
     Vec3 du = bezier_weighted(&root[at.patch], l->basis_slope[at.i], l->basis[at.j]);
     Vec3 dw = bezier_weighted(&root[at.patch], l->basis[at.i], l->basis_slope[at.j]);
     return lattice_outwards(l, at.patch, du, dw);

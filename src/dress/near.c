@@ -18,10 +18,11 @@ static unsigned parts_round(const BodyFrame *body, const Vec3 *point, int n, dou
     return parts;
 }
 
-/* Vertices that are asked about in one go, and the parts that the box round theirs is near to. */
+/* Vertices that are asked about in one go, block by block: where each block begins and ends, and the parts that the
+   box round it is near to. */
 typedef struct {
-    int n, vertex[LOT];
-    unsigned parts[LOT], any;
+    int nblocks, first[LOT / BLOCK + 1], vertex[LOT];
+    unsigned parts[LOT / BLOCK], any;
 } Lot;
 
 /* Asks one part about those of a lot that it may be near to. */
@@ -29,12 +30,14 @@ static void ask(Near *near, const BodyFrame *body, int part, const Vec3 *point, 
     int vertex[LOT], n = 0;
     Vec3 at[LOT];
     double distance[LOT];
-    for (int k = 0; k < lot->n; k++) {
-        int v = lot->vertex[k];
-        if (!(lot->parts[k] >> part & 1)) continue;
-        if (body_frame_far(body, part, point[v], far)) continue;
-        at[n] = point[v];
-        vertex[n++] = v;
+    for (int block = 0; block < lot->nblocks; block++) {
+        if (!(lot->parts[block] >> part & 1)) continue;
+        for (int k = lot->first[block]; k < lot->first[block + 1]; k++) {
+            int v = lot->vertex[k];
+            if (body_frame_far(body, part, point[v], far)) continue;
+            at[n] = point[v];
+            vertex[n++] = v;
+        }
     }
     if (n == 0) return;
     body_frame_unpressed_many(body, part, at, n, far, distance, NULL);
@@ -51,26 +54,27 @@ static void ask(Near *near, const BodyFrame *body, int part, const Vec3 *point, 
    into the lot. */
 static void add_block(Lot *lot, Near *near, const BodyFrame *body, const Vec3 *point, int first, int end, double far,
                       bool known) {
-    int before = lot->n;
+    int start = lot->first[lot->nblocks], n = start;
     for (int v = first; v < end; v++) {
         if (known && vec_dist(point[v], near[v].seen) == 0) continue;
         near[v].seen = point[v];
         near[v].parts = 0;
         near[v].least = (float)far;
-        lot->vertex[lot->n++] = v;
+        lot->vertex[n++] = v;
     }
-    if (lot->n == before) return;
+    if (n == start) return;
     unsigned parts = parts_round(body, point + first, end - first, far);
-    for (int k = before; k < lot->n; k++) lot->parts[k] = parts;
+    lot->parts[lot->nblocks++] = parts;
+    lot->first[lot->nblocks] = n;
     lot->any |= parts;
 }
 
 void near_find(Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3 *point, double far, bool known) {
     for (int first = 0; first < sheet->nvertices;) {
         Lot lot;
-        lot.n = 0;
+        lot.nblocks = lot.first[0] = 0;
         lot.any = 0;
-        for (; first < sheet->nvertices && lot.n <= LOT - BLOCK; first += BLOCK) {
+        for (; first < sheet->nvertices && lot.nblocks < LOT / BLOCK; first += BLOCK) {
             int end = first + BLOCK < sheet->nvertices ? first + BLOCK : sheet->nvertices;
             add_block(&lot, near, body, point, first, end, far, known);
         }

@@ -152,7 +152,7 @@ static void add_sample(Push *p, int vertex, int place, unsigned parts, double fa
     const Lattice *l = p->lattice;
     const LatticeStep *deepest = l->level[l->depth].step;
     PushSample *s = &p->sample[p->nsamples++];
-    LatticeIndex at = lattice_owner(l, place);
+    LatticeIndex at = l->owner[place];
     int cells = 1 << l->depth;
     s->vertex = vertex;
     s->patch = at.patch;

@@ -33,7 +33,7 @@ static void split_where_bad(Cloth *c) {
     const Lattice *l = c->push.lattice;
     const LatticeStep *step = l->level[l->depth].step;
     for (int k = 0; k < c->tester.nbad; k++) {
-        LatticeIndex at = lattice_owner(l, c->sheet.place[c->tester.bad[k]]);
+        LatticeIndex at = l->owner[c->sheet.place[c->tester.bad[k]]];
         leaves_split(&c->leaves, at.patch, l->depth, step[at.i].cell, step[at.j].cell);
     }
 }

@@ -45,12 +45,13 @@ static void leaf_points(const Surface *s, const Patch *patch, Leaf leaf, int abo
 /* Gives the vertices that a leaf's patch owns their values. */
 static void hand_out(const Sheet *sheet, Leaf leaf, const Vec3 *grid, Vec3 *out) {
     const Lattice *l = sheet->lattice;
-    int stride = 1 << (l->depth - leaf.level), n = l->side + 1;
-    int first = (leaf.cell.patch * n + leaf.cell.a * l->detail * stride) * n + leaf.cell.b * l->detail * stride;
-    for (int i = 0; i <= l->detail; i++)
-        for (int j = 0; j <= l->detail; j++, grid++) {
-            int slot = first + (i * n + j) * stride, place = l->place[slot];
-            if (l->owner[place] == slot) out[sheet->vertex[place]] = *grid;
+    int stride = 1 << (l->depth - leaf.level), patch = leaf.cell.patch;
+    int i0 = leaf.cell.a * l->detail * stride, j0 = leaf.cell.b * l->detail * stride;
+    for (int i = i0; i <= i0 + l->detail * stride; i += stride)
+        for (int j = j0; j <= j0 + l->detail * stride; j += stride, grid++) {
+            int place = lattice_place(l, patch, i, j);
+            LatticeIndex owner = l->owner[place];
+            if (owner.patch == patch && owner.i == i && owner.j == j) out[sheet->vertex[place]] = *grid;
         }
 }
 

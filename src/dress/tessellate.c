@@ -91,7 +91,7 @@ static void lay_leaf(Sheet *s, int patch, int i0, int j0, int stride) {
 /* Does the vertex stand on the grid of the leaf that its owner has there? One on a border between leaves may stand
    on that of any of them. */
 static bool on_grid(const Lattice *l, const Leaves *leaves, int place) {
-    LatticeIndex at = lattice_owner(l, place);
+    LatticeIndex at = l->owner[place];
     int cells = 1 << l->depth, x = at.i / l->detail, y = at.j / l->detail;
     for (int k = 0; k < 4; k++) {
         int a = x - (k / 2 && x * l->detail == at.i), b = y - (k % 2 && y * l->detail == at.j);
