@@ -145,14 +145,14 @@ static void goes_back(void) {
         others += gone && !raised;
     }
     OK(moved > 0 && others == 0, "%d of %d raised vertices move, and no others", moved, c->settler.nraised);
-    OK(settle_back(&c->settler, &c->push, &c->sheet), "what was marked can be taken back");
+    OK(settle_restore(&c->settler, &c->push, &c->sheet), "what was marked can be taken back");
     OK(memcmp(point, c->push.point, (size_t)c->sheet.nvertices * sizeof *point) == 0, "every vertex, to the bit");
     OK(memcmp(offset, spots->at, (size_t)c->push.lattice->nplaces * sizeof *offset) == 0 &&
            memcmp(dent, c->push.field.dent.at, (size_t)c->push.lattice->nplaces * sizeof *dent) == 0,
        "every offset and every dent");
     for (int v = 0; v < c->sheet.nvertices; v++) (void)settle_raise(&c->settler, &c->push, v, 0.005, 1);
     settle_mark(&c->settler, &c->push, &c->sheet);
-    OK(c->settler.nraised <= MARKED_MOST || !settle_back(&c->settler, &c->push, &c->sheet),
+    OK(c->settler.nraised <= MARKED_MOST || !settle_restore(&c->settler, &c->push, &c->sheet),
        "too many to remember (%d) are not taken back", c->settler.nraised);
     arena_free(&p.of.scene.arena);
 }

@@ -85,7 +85,7 @@ void push_clear(const Push *p, const Sheet *sheet, bool *clear);
 /* Keeps a solution of that many vertices, to take it back, with the sheet that it was made for, after
    another attempt. */
 void push_keep(Push *p, int nvertices);
-void push_back(Push *p);
+void push_restore(Push *p);
 
 /* The distance that cloth keeps from the body, metres on a figure of 1.70 m. */
 #define PUSH_MARGIN 0.003

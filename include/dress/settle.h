@@ -36,6 +36,6 @@ void settle_hit(Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, 
 
 /* Remembers where the raised vertices are, and puts them back there; false where there were too many. */
 void settle_mark(Settler *s, const Push *p, const Sheet *sheet);
-bool settle_back(const Settler *s, Push *p, const Sheet *sheet);
+bool settle_restore(const Settler *s, Push *p, const Sheet *sheet);
 
 #endif

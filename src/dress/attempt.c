@@ -101,7 +101,7 @@ Outcome attempt_push(Cloth *c, const BodyFrame *body, FrameStats *stats) {
         stats->push_s += clock_lap(&start);
         out.wrong = all_moved ? attempt_test(c, body, stats) : test_raised(c, body, out.wrong, stats);
         bool is_clean = residual_total(&out.wrong.own) == 0, solve = round % SOLVE_EVERY == SOLVE_EVERY - 1;
-        bool is_spoilt = was_clean && !is_clean && settle_back(&c->settler, &c->push, &c->sheet);
+        bool is_spoilt = was_clean && !is_clean && settle_restore(&c->settler, &c->push, &c->sheet);
         if (is_spoilt) out.wrong = test_raised(c, body, out.wrong, stats);
         bool raised = !is_spoilt && raise_bad(c, round);
         stats->test_s += clock_lap(&start);

@@ -367,7 +367,7 @@ void push_keep(Push *p, int nvertices) {
     memcpy(p->kept_point, p->point, (size_t)nvertices * sizeof *p->point);
 }
 
-void push_back(Push *p) {
+void push_restore(Push *p) {
     p->near_known = false;
     field_copy(&p->kept, &p->field);
     memcpy(p->point, p->kept_point, (size_t)p->nkept * sizeof *p->point);

@@ -147,7 +147,7 @@ void settle_mark(Settler *s, const Push *p, const Sheet *sheet) {
     }
 }
 
-bool settle_back(const Settler *s, Push *p, const Sheet *sheet) {
+bool settle_restore(const Settler *s, Push *p, const Sheet *sheet) {
     for (int k = 0; k < s->nmarked && s->nmarked <= MARKED_MOST; k++) {
         field_set_spot(&p->field.offset, sheet->place[s->raised[k]], s->was_offset[k]);
         field_set_spot(&p->field.dent, sheet->place[s->raised[k]], s->was_dent[k]);

@@ -45,7 +45,7 @@ static void keep(Solver *s) {
 }
 
 static void take_back(Solver *s, const BodyFrame *body, FrameStats *stats) {
-    push_back(&s->cloth.push);
+    push_restore(&s->cloth.push);
     leaves_copy(&s->kept, &s->cloth.leaves);
     lay_sheet(s);
     attempt_test(&s->cloth, body, stats);
