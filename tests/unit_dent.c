@@ -1,5 +1,7 @@
 /* A hand comes to lie on a skirt and then sinks into the hip: cloth gives way as a hollow and not as a spike, while
    there is room; where there is none the hip wins, and the frame says so. */
+#include <string.h>
+
 #include "scene.h"
 
 static int shows(const FrameStats *s) { return s->limb_edges + s->limb_cloth + s->limb_inside; }
@@ -41,8 +43,74 @@ static void hand_on_cloth(const char *garment, double touches, double presses, d
     arena_free(&s.arena);
 }
 
+/* Sits with the knees apart, and an arm hangs down between them. */
+static Pose hand_in_lap(const Scene *s, double forwards) {
+    enum { SEAT = 75, APART = 25, ACROSS = 60 };
+    Pose pose = scene_reaching(s, ACROSS);
+    scene_bend(s, &pose, ROLE_LEFT_UPPER_ARM, ROLE_LEFT_HAND, forwards);
+    for (int left = 0; left < 2; left++) {
+        Role thigh = left ? ROLE_LEFT_THIGH : ROLE_RIGHT_THIGH;
+        scene_leg(s, &pose, left, SEAT, SEAT);
+        Vec3 hip = rigid_apply(pose.bone[thigh], s->figure.start[thigh]);
+        Mat3 turn = mat_axis_angle(vec(0, 1, 0), (left ? APART : -APART) * PI / 180);
+        Rigid about = {turn, vec_sub(hip, mat_apply(turn, hip))};
+        for (int r = (int)thigh; r <= (int)thigh + 3; r++) pose.bone[r] = rigid_mul(about, pose.bone[r]);
+    }
+    return pose;
+}
+
+/* The most by which an edge is longer than without the hollow, as a factor. */
+static double longest_stretch(const Mesh *m, const Vec3 *flat) {
+    double most = 0;
+    for (int k = 0; k < m->nedges; k++) {
+        const int *v = m->edge[k].v;
+        most = fmax(most, vec_dist(m->position[v[0]], m->position[v[1]]) / vec_dist(flat[v[0]], flat[v[1]]));
+    }
+    return most;
+}
+
+/* The lap of a skirt gives way by more than a hand is thick: a hollow with flanks, and as still as the arm. */
+static void hand_between_knees(void) {
+    enum { STEPS = 40 };
+    static const double FROM = 33, BY = 0.05; /* degrees */
+    Scene s;
+    scene_open(&s, "skirt");
+    DressOptions fixed = {.fixed_topology = true};
+    Dresser *push = scene_dresser(&s, fixed);
+    fixed.method = METHOD_GLOBAL;
+    Dresser *global = scene_dresser(&s, fixed);
+    Vec3 *before = NULL, *flat = NULL;
+    int shown = 0, own_shown = 0;
+    double shallowest = INFINITY, jump = 0, stretch = 0;
+    for (int k = 0; k < STEPS; k++) {
+        Pose pose = hand_in_lap(&s, FROM + k * BY);
+        Mesh mesh;
+        FrameStats without = scene_frame(&s, global, &pose, 0, TIE_AFRESH, &mesh);
+        if (k == 0) {
+            before = ARENA_NEW(&s.arena, Vec3, mesh.nvertices, &s.error);
+            flat = ARENA_NEW(&s.arena, Vec3, mesh.nvertices, &s.error);
+            need(&s, before && flat);
+            OK(shows(&without) > 0, "a hand hangs into the lap of a skirt");
+        }
+        memcpy(flat, mesh.position, (size_t)mesh.nvertices * sizeof *flat);
+        FrameStats with = scene_frame(&s, push, &pose, 0, TIE_AFRESH, &mesh);
+        shown += shows(&with) > 0;
+        own_shown += own_shows(&with) > 0;
+        shallowest = fmin(shallowest, with.displacement);
+        stretch = fmax(stretch, longest_stretch(&mesh, flat));
+        for (int v = 0; v < mesh.nvertices && k > 0; v++) jump = fmax(jump, vec_dist(mesh.position[v], before[v]));
+        memcpy(before, mesh.position, (size_t)mesh.nvertices * sizeof *before);
+    }
+    OK(shown == 0 && own_shown == 0, "which gives way in all of %d poses (%d, %d)", STEPS, shown, own_shown);
+    OK(shallowest > 0.1, "deeply (%.0f mm)", 1000 * shallowest);
+    OK(stretch < 2, "its edges grow to no more than twice their length (%.2f)", stretch);
+    OK(jump < 0.005, "and the arm's %.2f degrees move no place by half a centimetre (%.1f mm)", BY, 1000 * jump);
+    arena_free(&s.arena);
+}
+
 int main(void) {
     hand_on_cloth("skirt", 40, 42.5, 47.5);
     hand_on_cloth("trousers", 42.5, 45, 47.5);
+    hand_between_knees();
     return tap_done();
 }

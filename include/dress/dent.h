@@ -4,11 +4,11 @@
 
 #include "dress/push.h"
 
-/* A vertex that a part from outside is too near to. */
+/* A vertex that a limb from outside has in front of it, or behind it. */
 typedef struct {
-    Vec3 at, press;       /* where it is, and by how much it is pressed in */
-    double depth, radius; /* of its hollow */
-    int vertex;
+    Vec3 at, way;         /* where it is, and in which direction it is pressed in (unit), */
+    double depth, radius; /* how far, and how far about its hollow goes; metres */
+    int limb, vertex;
 } Presser;
 
 typedef struct {
@@ -16,9 +16,10 @@ typedef struct {
     bool is_off;          /* nothing is pressed in: it did harm in an attempt before */
     Presser *presser;
     int npressers;
+    Vec3 *way;            /* per vertex: in which direction it is pressed in, */
+    double *depth;        /* and how far */
     Vec3 *hollow;         /* per vertex: how far it was pressed in, not counting single vertices */
-    Vec3 *held;           /* what is left of the hollows of the frame that this one goes on from, */
-    int *held_at, nheld;  /* and at which places */
+    FieldSpots held;      /* what is left of the hollows of the frame that this one goes on from */
     double *spare;        /* per place: metres more that the hollow keeps from what it is worn over, for between its
                              vertices it would go through that */
     bool any_spare;
@@ -37,8 +38,8 @@ void dent_start(Denter *d);
 /* Begins a round, in which a vertex is taken back once at most. */
 void dent_round(Denter *d);
 
-/* Presses the vertices of a sheet in that parts from outside are too near to, with those round them; only as far as
-   there is room in front of what they are worn over. */
+/* Presses the cloth in that limbs which touch it have in their way, with what is round it; only as far as there is
+   room in front of what it is worn over. */
 void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet);
 
 /* Moves a single vertex by so much more, at most that far from where its hollow is. */

@@ -59,6 +59,8 @@ static inline Vec3 field_limit(Vec3 d, double cap, bool *capped) {
     return vec_scale(d, cap / sqrt(n2));
 }
 
+MUST_CHECK bool field_reserve_spots(FieldSpots *s, int nplaces, Arena *arena, Error *e);
+
 /* Gives a place a vector; takes all of them away. */
 void field_set_spot(FieldSpots *s, int place, Vec3 d);
 void field_drop_spots(FieldSpots *s);

@@ -1,8 +1,12 @@
-/* An arm that lies on a skirt presses a hollow into it. In the sweeps it would fight with the legs, for displacements
-   that make room for the one take it from the others. So it comes after them, and they win: a vertex that the arm is
-   too near to is pressed in as far as there is room in front of the legs, and the cloth round it goes along, the less
-   the farther away it is, so that what comes of it is a hollow and no spike. Which way leads past fingers and wrist
-   may change at a hair's breadth; so a hollow is pressed deeper at once, but fills with time. */
+/* An arm that lies on a skirt, or hangs into it, presses a hollow. In the sweeps it would fight with the legs, for
+   displacements that make room for the one take it from the others. So it comes after them, and they win.
+
+   A limb from outside that touches the cloth anywhere presses one way: into the garment, but not along itself, for
+   that would only carry the cloth down the arm. All cloth of that side that would have the limb in its way, or behind
+   it already, goes past it, as far as there is room in front of what it is worn over. Cloth round about goes along,
+   the less the farther away it is; and no step is so steep that it would look like a spike or fold over. All of that
+   changes little where the pose changes little. What still jumps is a limit of the room, so a hollow is pressed deeper
+   at once, but fills with time. */
 #include "dress/dent.h"
 
 #include <stdlib.h>
@@ -10,33 +14,36 @@
 
 #include "geometry/boxtree.h"
 
-enum { PASSES = 2 }; /* a hollow may bring others to the arm that went past it */
-static const double DEEPEST = 0.10;            /* metres on 1.70 m */
-static const double BACK = 0.005, MOST_BACK = 0.03; /* first step out of a hollow; after so much it is given up */
-static const double WIDE = 0.05, WIDENS = 2.5; /* radius of a hollow: that, and this times its depth */
+enum { STEPS_BACK = 24, LEVEL_ROUNDS = 40 };
+static const double MEETS = 0.05;              /* share of the clearance that may be missing where cloth meets a limb */
+static const double WIDE = 0.05, WIDENS = 1.2; /* radius of a hollow: metres on 1.70 m, and this times its depth */
+static const double FACES = 0.5;    /* cosine of cloth to the way of a limb, from which on it is pressed in fully */
+static const double STEEP = 2;      /* a hollow's sides: metres inwards per metre of cloth; */
+static const double SHRINKS = 0.8;  /* and where cloth goes towards its neighbour, that share of their distance */
+static const double POINTED = 0.3;  /* squared sine between limb and way: below that the limb pokes rather than lies */
+static const double BACK = 0.005;   /* metres on 1.70 m: first step out of a hollow; */
+static const double MOST_BACK = 0.03; /* after so much it is given up */
 
 bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e) {
-    *d = (Denter){.npressers = 0};
+    *d = (Denter){.nplaces = lattice->nplaces};
     d->presser = ARENA_NEW(arena, Presser, lattice->nplaces, e);
+    d->way = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
+    d->depth = ARENA_NEW(arena, double, lattice->nplaces, e);
     d->hollow = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
-    d->held = ARENA_NEW(arena, Vec3, lattice->nplaces, e);
-    d->held_at = ARENA_NEW(arena, int, lattice->nplaces, e);
-    d->nplaces = lattice->nplaces;
     d->spare = ARENA_NEW(arena, double, lattice->nplaces, e);
     d->is_back = ARENA_NEW(arena, bool, lattice->nplaces, e);
     d->back = ARENA_NEW(arena, int, lattice->nplaces, e);
-    return d->presser && d->hollow && d->held && d->held_at && d->spare && d->is_back && d->back;
+    return d->presser && d->way && d->depth && d->hollow && d->spare && d->is_back && d->back &&
+           field_reserve_spots(&d->held, lattice->nplaces, arena, e);
 }
 
 void dent_carry(Denter *d, const Field *last, const BodyFrame *body, double dt, bool goes_on) {
     Carry carry = field_carry_to(last, body, dt);
-    d->nheld = 0;
+    field_drop_spots(&d->held);
     for (int k = 0; goes_on && k < last->dent.n; k++) {
         int place = last->dent.place[k];
         Vec3 dent = last->dent.at[place];
-        if (!field_carry_one(&dent, &carry)) continue;
-        d->held[d->nheld] = dent;
-        d->held_at[d->nheld++] = place;
+        if (field_carry_one(&dent, &carry)) field_set_spot(&d->held, place, dent);
     }
 }
 
@@ -51,27 +58,119 @@ void dent_round(Denter *d) {
     d->nback = 0;
 }
 
-/* The farthest that parts from outside press a vertex. Those that the garment is worn over elsewhere have moved it
-   in the sweeps. */
-static Vec3 press_of(const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex) {
-    const Lattice *l = p->field.lattice;
+static int limb_of(const BodyFrame *body, int part) { return role_limb(body->body->part[part].role); }
+
+/* The way from the global shape of a place into the garment. */
+static Vec3 inwards(const Push *p, int place) {
+    return vec_scale(lattice_normal(p->field.lattice, p->escape.root, place), -1);
+}
+
+/* Parts that come from outside to all of a garment. Those that it is worn over elsewhere move it in the sweeps. */
+static unsigned outsiders(const Push *p, const BodyFrame *body) {
+    unsigned parts = 0;
+    for (int k = 0; k < body->body->nparts; k++)
+        if (!(p->field.lattice->fit->collide & part_bit(body, k))) parts |= 1u << k;
+    return parts;
+}
+
+/* Which limbs touch the cloth, as parts from outside (bits 1 << part), and the way in which each presses (unit). */
+typedef struct {
+    unsigned parts;
+    Vec3 way[LIMBS];
+} Touch;
+
+/* Adds what a vertex is too near to: the nearer the more its way into the garment counts. */
+static void add_touch(Touch *t, const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, unsigned parts) {
+    double clearance = PUSH_MARGIN * p->field.scale;
     int place = sheet->place[vertex];
-    double most = DEEPEST * p->field.scale, farthest = 0;
-    Vec3 press = {0, 0, 0}, n;
-    EscapePoint at;
-    escape_at(&at, place, p->point[vertex], PUSH_MARGIN * p->field.scale);
-    for (int k = 0; k < body->body->nparts; k++) {
-        if ((l->collide[place] | l->fit->collide) & part_bit(body, k)) continue;
-        if (body_frame_far(body, k, at.point.at, at.clearance)) continue;
-        double distance = body_point_distance(body, k, &at.point, at.clearance, &n);
-        if (distance >= at.clearance) continue;
-        double way = fmin(escape_way(&p->escape, body, &at, k, at.clearance, distance, &n), most);
-        way = escape_free(&p->escape, body, place, at.point.at, at.clearance, n, way);
-        if (way <= farthest) continue;
-        farthest = way;
-        press = vec_scale(n, way);
+    for (; parts; parts &= parts - 1) {
+        int k = near_first(parts);
+        if (p->field.lattice->collide[place] & part_bit(body, k)) continue;
+        if (body_frame_far(body, k, p->point[vertex], clearance)) continue;
+        double missing = clearance - body_frame_distance(body, k, p->point[vertex], clearance, NULL);
+        if (missing <= 0) continue;
+        Vec3 *way = &t->way[limb_of(body, k)];
+        *way = vec_mad(*way, inwards(p, place), missing);
+        t->parts |= 1u << k;
     }
-    return press;
+}
+
+/* The way of a limb without what leads along its forearm; one that stands straight on the cloth pokes it. */
+static Vec3 across_arm(const BodyFrame *body, int limb, Vec3 way) {
+    static const int forearm[LIMBS] = {-1, ROLE_LEFT_FOREARM, ROLE_RIGHT_FOREARM, -1, -1};
+    int part = forearm[limb] < 0 ? -1 : body->body->of_role[forearm[limb]];
+    if (part < 0) return way;
+    Vec3 along = mat_column(body->to_world[part], 1);
+    double c = vec_dot(way, along);
+    return vec_unit_or(vec_mad(way, along, -c * smoothstep(0, POINTED, 1 - c * c)), way);
+}
+
+static Touch find_touch(const Push *p, const BodyFrame *body, const Sheet *sheet) {
+    Touch t = {.parts = 0};
+    unsigned outside = outsiders(p, body), touching = 0;
+    for (int v = 0; v < sheet->nvertices; v++) {
+        double slack = near_slack(p->near[v].least, p->clearance[v]);
+        if (slack <= vec_dist(p->point[v], p->near[v].seen)) add_touch(&t, p, body, sheet, v, outside);
+    }
+    for (int k = 0; k < body->body->nparts; k++)
+        if (t.parts >> k & 1) touching |= 1u << limb_of(body, k);
+    for (int k = 0; k < body->body->nparts; k++)
+        if (outside >> k & 1 && touching >> limb_of(body, k) & 1) t.parts |= 1u << k;
+    for (int limb = 0; limb < LIMBS; limb++)
+        t.way[limb] = across_arm(body, limb, vec_unit_or(t.way[limb], vec(0, 0, 0)));
+    return t;
+}
+
+/* Leaves of from..to along at + t n what lies between two planes across an axis. */
+static void clip(double at, double n, double low, double high, double *from, double *to) {
+    if (n == 0) {
+        if (at < low || at > high) *to = -1;
+        return;
+    }
+    *from = fmax(*from, ((n > 0 ? low : high) - at) / n);
+    *to = fmin(*to, ((n > 0 ? high : low) - at) / n);
+}
+
+/* How far cloth at `at` has to go along n to have all of a part behind it: from where the part's box ends, or `most`,
+   it comes back until it meets the part. 0: the part is not in its way. */
+static double way_past(const BodyFrame *body, int part, Vec3 at, Vec3 n, double clearance, double most) {
+    const Box *b = &body->box[part];
+    double from = 0, way = most;
+    clip(at.x, n.x, b->low.x - clearance, b->high.x + clearance, &from, &way);
+    clip(at.y, n.y, b->low.y - clearance, b->high.y + clearance, &from, &way);
+    clip(at.z, n.z, b->low.z - clearance, b->high.z + clearance, &from, &way);
+    for (int step = 0; step < STEPS_BACK && way > from; step++) {
+        double gap = near_slack(body_frame_distance(body, part, vec_mad(at, n, way), most, NULL), clearance);
+        if (gap <= MEETS * clearance) return way;
+        way -= gap;
+    }
+    return 0;
+}
+
+/* How much cloth that faces `inwards` minds a limb that presses along n, 0 to 1: what is on the other side of the
+   garment does not. */
+static double facing(Vec3 inwards, Vec3 n) { return smoothstep(0, FACES, vec_dot(inwards, n)); }
+
+/* The part that presses a vertex in the farthest; false where none does. */
+static bool find_presser(const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, const Touch *t,
+                         Presser *out) {
+    int place = sheet->place[vertex];
+    double clearance = PUSH_MARGIN * p->field.scale;
+    *out = (Presser){.at = p->point[vertex], .vertex = vertex};
+    for (unsigned left = t->parts; left; left &= left - 1) {
+        int k = near_first(left), limb = limb_of(body, k);
+        Vec3 n = t->way[limb];
+        if (p->field.lattice->collide[place] & part_bit(body, k)) continue;
+        double depth = way_past(body, k, out->at, n, clearance, p->field.cap);
+        if (depth > out->depth) depth *= facing(inwards(p, place), n);
+        if (depth > out->depth) depth = escape_free(&p->escape, body, place, out->at, clearance, n, depth);
+        if (depth <= out->depth) continue;
+        out->depth = depth;
+        out->limb = limb;
+        out->way = n;
+    }
+    out->radius = WIDE * p->field.scale + WIDENS * out->depth;
+    return out->depth > 0;
 }
 
 static int deepest_first(const void *a, const void *b) {
@@ -81,40 +180,81 @@ static int deepest_first(const void *a, const void *b) {
 }
 
 static void find_pressers(Denter *d, const Push *p, const BodyFrame *body, const Sheet *sheet) {
+    Touch t = find_touch(p, body, sheet);
     d->npressers = 0;
-    for (int v = 0; v < sheet->nvertices; v++) {
-        Vec3 at = p->point[v];
-        if (near_slack(p->near[v].least, p->clearance[v]) > vec_dist(at, p->near[v].seen)) continue;
-        Vec3 press = press_of(p, body, sheet, v);
-        double depth = vec_len(press);
-        if (depth <= 0) continue;
-        d->presser[d->npressers++] = (Presser){at, press, depth, WIDE * p->field.scale + WIDENS * depth, v};
-    }
+    for (int v = 0; v < sheet->nvertices && t.parts; v++)
+        d->npressers += find_presser(p, body, sheet, v, &t, &d->presser[d->npressers]);
     qsort(d->presser, (size_t)d->npressers, sizeof *d->presser, deepest_first);
 }
 
-/* What the pressers make of a vertex at x: the deepest of their hollows there. */
-static Vec3 hollow_at(const Denter *d, Vec3 x) {
-    Vec3 hollow = {0, 0, 0};
-    double deepest = 0;
-    for (int k = 0; k < d->npressers && d->presser[k].depth > deepest; k++) {
+/* What the pressers make of a vertex at x: of each limb the deepest hollow there. Returns the depth of the deepest,
+   and adds all of them to *way. */
+static double hollow_at(const Denter *d, Vec3 x, Vec3 inwards, Vec3 *way) {
+    double depth[LIMBS] = {0}, deepest = 0;
+    Vec3 of[LIMBS] = {{0}};
+    for (int k = 0; k < d->npressers; k++) {
         const Presser *by = &d->presser[k];
+        if (by->depth <= depth[by->limb]) continue;
         Vec3 off = vec_sub(x, by->at);
         double rest = 1 - vec_dot(off, off) / (by->radius * by->radius);
-        if (rest <= 0 || rest * rest * by->depth <= deepest) continue;
-        deepest = rest * rest * by->depth;
-        hollow = vec_scale(by->press, rest * rest);
+        if (rest <= 0) continue;
+        depth[by->limb] = fmax(depth[by->limb], rest * rest * facing(inwards, by->way) * by->depth);
+        of[by->limb] = by->way;
     }
-    return hollow;
+    for (int limb = 0; limb < LIMBS; limb++) {
+        deepest = fmax(deepest, depth[limb]);
+        *way = vec_mad(*way, of[limb], depth[limb]);
+    }
+    return deepest;
 }
 
 /* All that any hollow reaches. */
 static Box reach(const Denter *d) {
     Box box = box_empty();
-    double widest = d->presser[0].radius;
+    if (d->npressers == 0) return box;
     for (int k = 0; k < d->npressers; k++) box_add(&box, d->presser[k].at);
-    Vec3 far = vec(widest, widest, widest);
+    Vec3 far = vec_scale(vec(1, 1, 1), d->presser[0].radius);
     return (Box){vec_sub(box.low, far), vec_add(box.high, far)};
+}
+
+/* How far a vertex is pressed in, and which way, as there is room: by the pressers, or from the frame before. */
+static void find_depth(Denter *d, const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, Box reach) {
+    int place = sheet->place[vertex];
+    Vec3 at = p->point[vertex], held = d->held.at[place];
+    bool is_reached = box_touches(reach, (Box){at, at});
+    d->depth[vertex] = 0;
+    if ((!is_reached && field_is_zero(held)) || d->spare[place] > MOST_BACK * p->field.scale) return;
+    double depth = vec_len(held);
+    Vec3 n = inwards(p, place), way = held;
+    if (is_reached) depth = fmax(depth, hollow_at(d, at, n, &way));
+    if (depth <= 0) return;
+    d->way[vertex] = vec_unit_or(way, n);
+    d->depth[vertex] = escape_free(&p->escape, body, place, at, p->clearance[vertex] + d->spare[place],
+                                   d->way[vertex], fmin(depth, p->field.cap));
+}
+
+/* How much deeper than its neighbour a vertex may be. */
+static double step_between(const Denter *d, const Push *p, int deep, int other) {
+    Vec3 to = vec_sub(p->point[other], p->point[deep]);
+    double length = vec_len(to), towards = vec_dot(d->way[deep], to);
+    return STEEP * towards > SHRINKS * length ? SHRINKS * length * length / towards : STEEP * length;
+}
+
+/* Makes steps in the hollows no larger than that: beside cloth that has no room others stay behind too. */
+static void level(const Denter *d, const Push *p, const Sheet *sheet) {
+    bool moved = true;
+    for (int round = 0; round < LEVEL_ROUNDS && moved; round++) {
+        moved = false;
+        for (int k = 0; k < sheet->nedges; k++) {
+            const int *v = sheet->edge[round % 2 ? sheet->nedges - 1 - k : k].v;
+            if (d->depth[v[0]] == d->depth[v[1]]) continue;
+            int deep = v[d->depth[v[0]] < d->depth[v[1]]], other = v[0] + v[1] - deep;
+            double most = d->depth[other] + step_between(d, p, deep, other);
+            if (d->depth[deep] <= most) continue;
+            d->depth[deep] = most;
+            moved = true;
+        }
+    }
 }
 
 static void set_dent(Push *p, const Sheet *sheet, int vertex, Vec3 dent, bool *capped) {
@@ -123,41 +263,19 @@ static void set_dent(Push *p, const Sheet *sheet, int vertex, Vec3 dent, bool *c
     field_set_spot(&p->field.dent, place, dent);
 }
 
-/* Presses a vertex in by `hollow`, as far as there is room. */
-static void press_vertex(const Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, Vec3 hollow) {
-    int place = sheet->place[vertex];
-    double depth = vec_len(hollow), clearance = p->clearance[vertex] + d->spare[place];
-    if (depth <= 0 || d->spare[place] > MOST_BACK * p->field.scale) return;
-    Vec3 at = p->point[vertex], n = vec_scale(hollow, 1 / depth);
-    double way = escape_free(&p->escape, body, place, at, clearance, n, depth);
-    if (way <= 0) return;
-    bool capped;
-    Vec3 deeper = vec_mad(p->field.dent.at[place], n, way);
-    set_dent(p, sheet, vertex, field_limit(deeper, DEEPEST * p->field.scale, &capped), &capped);
-}
-
-static void press_held(const Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
-    for (int k = 0; k < d->nheld; k++) {
-        int vertex = sheet->vertex[d->held_at[k]];
-        if (vertex >= 0) press_vertex(d, p, body, sheet, vertex, d->held[k]);
-    }
-}
-
-static void press_in(const Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
+static void press_in(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
     Box box = reach(d);
-    for (int v = 0; v < sheet->nvertices; v++) {
-        Vec3 at = p->point[v];
-        if (box_touches(box, (Box){at, at})) press_vertex(d, p, body, sheet, v, hollow_at(d, at));
-    }
+    bool capped;
+    for (int v = 0; v < sheet->nvertices; v++) find_depth(d, p, body, sheet, v, box);
+    level(d, p, sheet);
+    for (int v = 0; v < sheet->nvertices; v++)
+        if (d->depth[v] > 0) set_dent(p, sheet, v, vec_scale(d->way[v], d->depth[v]), &capped);
 }
 
 void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
-    if (!d->is_off) press_held(d, p, body, sheet);
-    for (int pass = 0; pass < PASSES && !d->is_off; pass++) {
-        find_pressers(d, p, body, sheet);
-        if (d->npressers == 0) break;
-        press_in(d, p, body, sheet);
-    }
+    d->npressers = 0;
+    if (!d->is_off) find_pressers(d, p, body, sheet);
+    if (!d->is_off && d->npressers + d->held.n > 0) press_in(d, p, body, sheet);
     for (int v = 0; v < sheet->nvertices; v++) d->hollow[v] = p->field.dent.at[sheet->place[v]];
 }
 

@@ -9,7 +9,7 @@ static const double SINK = 0.12;                  /* but no faster than that, me
 static const double FELT = 0.0002;                /* metres on 1.70 m: a carried displacement below this is dropped */
 static const double CAP_LOOSE = 7, CAP_TIGHT = 16; /* parts of the height */
 
-static bool reserve_spots(FieldSpots *s, int nplaces, Arena *arena, Error *e) {
+bool field_reserve_spots(FieldSpots *s, int nplaces, Arena *arena, Error *e) {
     s->at = ARENA_NEW(arena, Vec3, nplaces, e);
     s->is_listed = ARENA_NEW(arena, bool, nplaces, e);
     s->place = ARENA_NEW(arena, int, nplaces, e);
@@ -42,8 +42,8 @@ bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e) {
     for (int l = 0; l < LATTICE_LEVELS; l++)
         f->start[l + 1] = f->start[l] + (l <= lattice->depth ? lattice->level[l].count : 0);
     f->displacement = ARENA_NEW(arena, Vec3, f->start[LATTICE_LEVELS], e);
-    return f->displacement && reserve_spots(&f->offset, lattice->nplaces, arena, e) &&
-           reserve_spots(&f->dent, lattice->nplaces, arena, e);
+    return f->displacement && field_reserve_spots(&f->offset, lattice->nplaces, arena, e) &&
+           field_reserve_spots(&f->dent, lattice->nplaces, arena, e);
 }
 
 void field_forget(Field *f) {
