@@ -6,6 +6,15 @@
    the motion itself, in which a body is turned and bent: it has to be straight. */
 #include "figure/rest.h"
 
+/* Cosines, but where it is said. */
+static const double UPRIGHT = 0.87, SIDEWAYS = 0.96; /* nearer to an axis of the file trunk and left are taken for it */
+static const double TOGETHER = 0.85, LEANING = 0.3;  /* hips go the way of the shoulders; and along the trunk at most */
+static const double LEGS_DOWN = 0.8;                 /* astride as far as that */
+static const double ALONG_SHIN = 0.97, UP_SHIN = -0.5; /* between these a foot stands across */
+static const double RAISED = 0.5, INWARDS = -0.3;    /* arms: how far up, and to the other side, at most */
+static const double LEGS_LOPSIDED = 0.25, ARMS_LOPSIDED = 0.5; /* see lopsided: no cosines */
+static const double TEE = 0.42, HANGING = 0.87;      /* arms that go down less than that; and more */
+
 Vec3 rest_bone(const Rest *rest, const Figure *f, Role role) {
     if (f->toward[role] < 0) return vec(0, 0, 0);
     Vec3 from = rest_place(rest, f->roles.joint[role]), to = rest_place(rest, f->toward[role]);
@@ -29,10 +38,10 @@ static bool torso_is_human(const Figure *f, Rest *rest) {
     Vec3 torso = vec_sub(vec_mid(left_arm, right_arm), vec_mid(left_hip, right_hip));
     Vec3 shoulders = vec_unit_or(vec_sub(left_arm, right_arm), vec(0, 0, 0));
     Vec3 hips = vec_unit_or(vec_sub(left_hip, right_hip), shoulders); /* hips may have no width */
-    Vec3 up = rest_snap(vec_unit_or(torso, vec(0, 0, 0)), 0.87);
-    if (vec_dot(hips, shoulders) < 0.85 || fabs(vec_dot(hips, up)) > 0.3) return false;
+    Vec3 up = rest_snap(vec_unit_or(torso, vec(0, 0, 0)), UPRIGHT);
+    if (vec_dot(hips, shoulders) < TOGETHER || fabs(vec_dot(hips, up)) > LEANING) return false;
     Vec3 left = vec_add(hips, shoulders);
-    left = rest_snap(vec_unit_or(vec_mad(left, up, -vec_dot(left, up)), hips), 0.96);
+    left = rest_snap(vec_unit_or(vec_mad(left, up, -vec_dot(left, up)), hips), SIDEWAYS);
     rest->frame = mat_columns(left, up, vec_cross(left, up));
     return true;
 }
@@ -50,12 +59,12 @@ static bool legs_are_human(const Figure *f, const Rest *rest) {
     static const Role bones[] = {ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN};
     Vec3 bone;
     for (int i = 0; i < 4; i++)
-        if (lopsided(f, rest, bones[i], &bone) > 0.25 || bone.y > -0.8) return false;
+        if (lopsided(f, rest, bones[i], &bone) > LEGS_LOPSIDED || bone.y > -LEGS_DOWN) return false;
     for (int side = 0; side < 2; side++) {
         Role foot = side ? ROLE_RIGHT_FOOT : ROLE_LEFT_FOOT;
         if (f->toward[foot] < 0) continue;
         double along = vec_dot(rest_bone(rest, f, foot), rest_bone(rest, f, foot - 1));
-        if (along > 0.97 || along < -0.5) return false;
+        if (along > ALONG_SHIN || along < UP_SHIN) return false;
     }
     return true;
 }
@@ -63,7 +72,7 @@ static bool legs_are_human(const Figure *f, const Rest *rest) {
 static bool arms_are_human(const Figure *f, const Rest *rest) {
     Vec3 left;
     for (int r = ROLE_LEFT_UPPER_ARM; r <= ROLE_LEFT_FOREARM; r++)
-        if (lopsided(f, rest, (Role)r, &left) > 0.5 || left.y > 0.5 || left.x < -0.3) return false;
+        if (lopsided(f, rest, (Role)r, &left) > ARMS_LOPSIDED || left.y > RAISED || left.x < INWARDS) return false;
     return true;
 }
 
@@ -73,13 +82,13 @@ static bool is_human(const Figure *f, Rest *rest) {
 
 /* Legs that go down and arms that do not, neither of them bent. */
 static bool is_straight(const Figure *f, const Rest *rest) {
-    static const double STRAIGHT = 0.97, DOWN = 0.97, HANGING = 0.8; /* cosines */
+    static const double STRAIGHT = 0.97, DOWN = 0.97, OFF_DOWN = 0.8;
     Vec3 up = mat_column(rest->frame, 1);
     for (int side = 0; side < 2; side++) {
         Role leg = side ? ROLE_RIGHT_THIGH : ROLE_LEFT_THIGH, arm = side ? ROLE_RIGHT_UPPER_ARM : ROLE_LEFT_UPPER_ARM;
         Vec3 thigh = rest_bone(rest, f, leg), upper = rest_bone(rest, f, arm);
         if (-vec_dot(thigh, up) < DOWN || vec_dot(thigh, rest_bone(rest, f, leg + 1)) < STRAIGHT) return false;
-        if (-vec_dot(upper, up) > HANGING || vec_dot(upper, rest_bone(rest, f, arm + 1)) < STRAIGHT) return false;
+        if (-vec_dot(upper, up) > OFF_DOWN || vec_dot(upper, rest_bone(rest, f, arm + 1)) < STRAIGHT) return false;
     }
     return true;
 }
@@ -89,7 +98,7 @@ Rest rest_find(const Sample *sample, const Figure *f) {
     if (is_human(f, &zero)) {
         double down = -vec_dot(rest_bone(&zero, f, ROLE_LEFT_UPPER_ARM), mat_column(zero.frame, 1));
         zero.human = true;
-        zero.name = down < 0.42 ? "T-pose offsets" : down < 0.87 ? "A-pose offsets" : "offsets with hanging arms";
+        zero.name = down < TEE ? "T-pose offsets" : down < HANGING ? "A-pose offsets" : "offsets with hanging arms";
         return zero;
     }
     first.human = is_human(f, &first) && is_straight(f, &first);
