@@ -96,7 +96,7 @@ static void is_even(void) {
     for (int k = 1; k < 3; k++) joint[ROLE_RIGHT_UPPER_ARM + k].t.x = 0.18 + 0.3 * k;
     OK(!found(&f, joint, joint).human, "both arms to one side are a heap");
     place(&s, mat_identity(), joint);
-    for (int k = 1; k < 4; k++) joint[ROLE_LEFT_THIGH + k].t.z += 0.1 * fmin(k, 2);
+    for (int k = 1; k < 4; k++) joint[ROLE_LEFT_THIGH + k].t.z += 0.15 * k;
     OK(!found(&f, joint, joint).human, "legs that stride are a frame of the motion");
     place(&s, mat_identity(), joint);
     for (int k = 0; k < 3; k++) {
