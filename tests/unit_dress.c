@@ -215,6 +215,36 @@ static void neckline_opens(Specimen *s) {
     OK(cracks == 0 && wrong == 0, "the borders of a neckline part at an angle in any of 20 poses");
 }
 
+/* What the solver begins with is split wherever the rule has split, and round what is hit. */
+static void rule_is_kept(const char *name) {
+    static Specimen c;
+    static Classifier classifier;
+    Classification found;
+    Leaves by_rule;
+    specimen_open(&c, name, DETAIL, DEPTH);
+    Scene *s = &c.scene;
+    need(s, classifier_reserve(&classifier, &c.lattice, &s->arena, &s->error) &&
+                leaves_reserve(&by_rule, &c.lattice, &s->arena, &s->error));
+    int coarser = 0, finer = 0, wrong = 0, hits = 0;
+    for (double hip = 10; hip <= 90; hip += 10) {
+        Pose pose = figure_rest_pose();
+        scene_leg(s, &pose, true, hip, 0.5 * hip);
+        body_frame_pose(&s->posed, &pose);
+        follow_pose(&c.follower, &pose, c.root);
+        classify(&classifier, c.root, &s->posed, SPLIT_ADAPTIVE, &by_rule, &c.leaves, &found);
+        for (int k = 0; k < lattice_cells(&c.lattice); k++) {
+            coarser += c.leaves.level[k] < by_rule.level[k];
+            finer += c.leaves.level[k] > by_rule.level[k];
+        }
+        int splits = (found.leaves - c.fit.npatches) / 3;
+        wrong += leaves_count(&by_rule) != found.leaves || found.nodes != found.leaves + splits;
+        hits += found.hits;
+    }
+    OK(coarser == 0 && finer > 0 && hits > 0, "%s: no cell is coarser than the rule says (%d are finer)", name, finer);
+    OK(wrong == 0, "%s: every split makes four leaves of one, and four nodes more", name);
+    arena_free(&s->arena);
+}
+
 /* Without a local deformation there are two tests, the classification and the last one; their pairs are known. */
 static void pairs_are_counted(Scene *s, const char *name) {
     Dresser *d = scene_dresser(s, (DressOptions){.method = METHOD_GLOBAL, .split = SPLIT_NONE});
@@ -243,5 +273,7 @@ int main(void) {
         pairs_are_counted(&c.scene, SHIPPED[k]);
         arena_free(&c.scene.arena);
     }
+    rule_is_kept("paper-skirt");
+    rule_is_kept("trousers");
     return tap_done();
 }
