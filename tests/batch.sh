@@ -70,9 +70,9 @@ refuses() { # refuses PATTERN ARGUMENT...
     shift
     must_fail 3 dress in/walk2.bvh -o bounds "$@" && says "$pattern" && [ ! -e bounds/walk2 ]
 }
-ok '--max-frames' refuses 'in/walk2.bvh:[0-9]+:9: error: 8 frames are more than the limit of 7' --max-frames 7
-ok '--max-joints' refuses 'more than 5 joints' --max-joints 5
-ok 'as many as there are' dress in/walk2.bvh -o bounds --max-frames 8 --max-joints 100
+ok '--max-frames: a longer motion is refused' refuses 'in/walk2.bvh:[0-9]+:9: error: 8 frames are more than the limit of 7' --max-frames 7
+ok '--max-joints: so is one of more joints' refuses 'more than 5 joints' --max-joints 5
+ok 'limits that are just kept' dress in/walk2.bvh -o bounds --max-frames 8 --max-joints 100
 ok '--max-memory: exit 3' must_fail 3 dress in/walk2.bvh -o memory --max-memory 1
 like 'says what was allowed' "$(cat err)" 'needs more memory than the limit of 1 MB'
 like 'and counts as refused' "$(cat memory/summary.csv)" '^walk2,skirt,refused,'
@@ -83,9 +83,9 @@ ok '--max-memory that suffices' dress in/walk2.bvh -o memory --max-memory 200
 "$KITSUKE" walk --preset paper --frames-per-step 8 --steps 80 -o long.bvh
 chunks() { dress long.bvh -o "chunks$1" -j "$1" --format none "${2:---no-body}" "${3:---no-body}"; }
 ok 'a motion of 640 frames on one thread' chunks 1
-ok 'on two' chunks 2
-ok 'on five' chunks 5
-ok 'the same bytes' eval 'diff -r chunks1 chunks2 && diff -r chunks1 chunks5'
+ok 'the same motion on two' chunks 2
+ok 'and on five' chunks 5
+ok 'write the same bytes' eval 'diff -r chunks1 chunks2 && diff -r chunks1 chunks5'
 # Every chunk but the first begins with the cloth of the one before.
 steady() { awk -F, '/^#/ { next } !at { for (i = 1; i <= NF; i++) if ($i == "restarted") at = i; next }
     $1 != ++n || $at != (n == 1) { bad = 1 } END { exit bad || n != 640 }' chunks1/long/stats.csv; }

@@ -24,13 +24,13 @@ cells() { # cells TABLE METHOD: the cells of its (first) row in the n-th table, 
 }
 
 # --- the walk ---
-ok 'the shipped walk' sh -c '"$0" compare --no-times "$1" -g "$2" -o run --methods global >table 2>err' \
+ok 'the shipped walk is compared' sh -c '"$0" compare --no-times "$1" -g "$2" -o run --methods global >table 2>err' \
     "$KITSUKE" "$walk" "$skirt"
 is 'nothing on stderr' "$(cat err)" ''
 csv=run/compare.csv
-is 'columns' "$(head -n 1 $csv | cut -d, -f1-10)" \
+is 'the columns of what was done' "$(head -n 1 $csv | cut -d, -f1-10)" \
     'frame,method,nodes,leaves,tests,tests_culled,depth,cells,hits,displacement'
-is 'and more columns' "$(head -n 1 $csv | cut -d, -f11-)" \
+is 'and of what came of it' "$(head -n 1 $csv | cut -d, -f11-)" \
     'residual_edges,residual_cloth,inside,control_points,bytes'
 is 'a row for each frame and method' "$(tail -n +2 $csv | cut -d, -f2 | sort | uniq -c | tr -s ' ' | tr '\n' ';')" \
     ' 72 adaptive; 72 global; 72 uniform;'
@@ -78,15 +78,15 @@ like 'says what it is' "$(cat run/tests.svg)" 'intersection tests'
 like 'adaptive is dashed' "$(cat run/tests.svg)" 'stroke-dasharray'
 is 'no picture of times without times' "$(ls run)" 'compare.csv
 tests.svg'
-ok 'with times' "$KITSUKE" compare "$walk" -g "$skirt" -o timed --frames 1:4 --repeat 2
-is 'their columns' "$(head -n 1 timed/compare.csv | cut -d, -f16-)" 'tests_s,tests_culled_s,solve_s'
-is 'their picture' "$(ls timed)" 'compare.csv
+ok 'a comparison with times' "$KITSUKE" compare "$walk" -g "$skirt" -o timed --frames 1:4 --repeat 2
+is 'has columns for them' "$(head -n 1 timed/compare.csv | cut -d, -f16-)" 'tests_s,tests_culled_s,solve_s'
+is 'and a picture of them' "$(ls timed)" 'compare.csv
 tests.svg
 times.svg'
 like 'which says what it is' "$(cat timed/times.svg)" 'time in tests \(ms\)'
 is 'the same counts as without' "$(cut -d, -f1-15 timed/compare.csv)" "$(head -n 13 run/compare.csv | grep -v global)"
-ok 'one frame' compare "$walk" -g "$skirt" -o one --frames 12
-is 'is one point' "$(wc -l <one/compare.csv | tr -d ' ')" 3
+ok 'a comparison of one frame' compare "$walk" -g "$skirt" -o one --frames 12
+is 'has one row for each method' "$(wc -l <one/compare.csv | tr -d ' ')" 3
 
 # --- earlier files ---
 ok 'an earlier run is not replaced' refuses 4 "'run/compare.csv' is there" "$walk" -g "$skirt" -o run --no-times

@@ -34,7 +34,7 @@ is 'without there are none' "$(grep -c '_s,' none/paper-walk/stats.csv)" 0
 
 # Frames and rates. The walk has 72 frames at 66 a second.
 dress "$walk" -g "$skirt" -o full --format obj
-is 'all frames' "$(count full 'skirt.*.obj')" 72
+is 'a mesh for every frame' "$(count full 'skirt.*.obj')" 72
 dress "$walk" -g "$skirt" -o step --frames 3::30
 is '--frames 3::30' "$(joined frame step/paper-walk/stats.csv)" '3 33 63 '
 same 'a selected frame shows the same body' step/paper-walk/body.0033.obj full/paper-walk/body.0033.obj
@@ -97,15 +97,15 @@ is 'the others are dressed, folders named by their paths, rows in order' \
     'a/bad=refused a/short=ok a/walk=ok b/walk=ok walk=ok '
 like 'the bad one has its reason in the summary' "$(cat many/summary.csv)" '^a/bad,skirt,refused,0,.*in/a/bad.bvh'
 is 'and one message on stderr' "$(grep -c error: many.err)" 1
-is 'and no folder' "$(ls many/a)" "$(printf 'short\nwalk')"
+is 'and makes no folder' "$(ls many/a)" "$(printf 'short\nwalk')"
 must_fail 3 batch -o threads -j 4 >log
 ok 'four threads write the same bytes' diff -r many threads
-same 'and say the same' err many.err
+same 'and say the same on stderr' err many.err
 wardrobe() { "$KITSUKE" dress -q in/a/walk.bvh -g "$skirt" -g "$trousers" -g "$root/garments/tshirt.garment" \
     --frames 1:12 --no-times --format obj,drc -o "$1" -j "$2"; }
 ok 'three garments on one thread' wardrobe worn1 1
-ok 'on five' wardrobe worn5 5
-ok 'the same bytes' diff -r worn1 worn5
+ok 'the same garments on five' wardrobe worn5 5
+ok 'write the same bytes' diff -r worn1 worn5
 ok 'a folder without motions: exit 3' must_fail 3 dress in/empty -g "$skirt" -o empty
 cp "$walk" in/a/walk.amc
 dress in/a/walk.bvh in/b/walk.BVH in/a/walk.amc -g "$skirt" -o names --frames 1:1 --no-body --format none

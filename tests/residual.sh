@@ -13,8 +13,8 @@ count() { python3 "$root/tests/count_pairs.py" "$@"; }
 }
 is 'the counter: an edge through a triangle' "$(count through.obj flat.obj)" 1
 is 'in one plane: the two edges that end in a corner' "$(count corner.obj flat.obj)" 2
-is 'a micrometre off' "$(count above.obj flat.obj)" 0
-is 'itself' "$(count flat.obj flat.obj)" 3
+is 'a triangle a micrometre above another' "$(count above.obj flat.obj)" 0
+is 'a triangle and itself: all three edges' "$(count flat.obj flat.obj)" 3
 
 {
     printf 'garment sheet\nfollow bones\nfit tight\npatch sheet\n'

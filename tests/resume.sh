@@ -23,7 +23,7 @@ again() { # again PATTERN ARGUMENT...: resumed on a copy of the whole run
 }
 is_whole() { diff -r whole out.d; }
 
-ok 'a run' dressed '^4 of 5 motions dressed, 48 frames' -o whole
+ok 'a whole run' dressed '^4 of 5 motions dressed, 48 frames' -o whole
 ok 'resumed: everything was done before' again '^4 of 5 motions dressed \(4 before\)$'
 ok 'and it is the same, with its summary' is_whole
 like 'what could not be read is read again' "$(cat err)" 'in/bad.bvh:1:1: error: '
@@ -43,7 +43,7 @@ ok 'one number of one input does' again '\(3 before\), 6 frames'
 ok 'and its motion is another' must_fail 1 diff -r whole out.d
 cp kept.bvh in/walk1.bvh
 ok 'the old input brings the old bytes back' dressed '\(3 before\), 6 frames' --resume -o out.d
-ok 'all of them' is_whole
+ok 'and all is whole' is_whole
 sed 's/ease 0.040/ease 0.041/; s/^# .*/# changed/' moved.garment >skirt.garment
 ok 'a changed garment: everything is done again' again ' dressed, 48 frames'
 cp moved.garment skirt.garment
