@@ -4,6 +4,7 @@
 #define DRESS_ATTEMPT_H
 
 #include "dress/frame.h"
+#include "dress/morph.h"
 #include "dress/residual.h"
 #include "dress/settle.h"
 
@@ -13,6 +14,7 @@ typedef struct {
     const Patch *root;       /* of this frame */
     Leaves leaves;
     Sheet sheet;
+    Morph morph;             /* of what is split anew, or no longer */
     Push push;
     Settler settler;
     Tester tester;

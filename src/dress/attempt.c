@@ -22,7 +22,8 @@ bool cloth_reserve(Cloth *c, const Fit *fit, const Lattice *lattice, Arena *aren
     *c = (Cloth){.fit = fit};
     int triangles = 2 * fit->npatches * lattice->side * lattice->side, places = lattice->nplaces;
     if (!leaves_reserve(&c->leaves, lattice, arena, e) || !sheet_reserve(&c->sheet, lattice, arena, e) ||
-        !push_reserve(&c->push, lattice, arena, e) || !settle_reserve(&c->settler, lattice, arena, e) ||
+        !morph_reserve(&c->morph, lattice, arena, e) || !push_reserve(&c->push, lattice, arena, e) ||
+        !settle_reserve(&c->settler, lattice, arena, e) ||
         !tester_reserve(&c->tester, 3 * triangles, triangles, fit->collide, arena, e))
         return false;
     c->position = ARENA_NEW(arena, Vec3, places, e);
@@ -60,6 +61,12 @@ static Wrong test_raised(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *s
     return w;
 }
 
+/* On the global shape, where splits open and close. */
+static void start_push(Cloth *c) {
+    push_start(&c->push, c->root, &c->leaves, &c->sheet);
+    morph_points(&c->morph, &c->sheet, c->push.global);
+}
+
 /* The surface as a whole, then what that leaves of every vertex. */
 static void push_all(Cloth *c, const BodyFrame *body, PushResult *result) {
     push_solve(&c->push, body, &c->sheet, result);
@@ -94,7 +101,7 @@ Outcome attempt_push(Cloth *c, const BodyFrame *body, FrameStats *stats) {
     int before = INT_MAX;
     bool all_moved = true, was_clean = false;
     Outcome out = {.push = {0}};
-    push_start(&c->push, c->root, &c->leaves, &c->sheet);
+    start_push(c);
     settle_start(&c->settler);
     push_all(c, body, &out.push);
     for (int round = 0;; round++) {
@@ -118,7 +125,7 @@ Outcome attempt_push(Cloth *c, const BodyFrame *body, FrameStats *stats) {
 
 Outcome attempt_rest(Cloth *c, const BodyFrame *body, FrameStats *stats) {
     double start = clock_seconds();
-    push_start(&c->push, c->root, &c->leaves, &c->sheet);
+    start_push(c);
     push_rest(&c->push, &c->sheet);
     Outcome out = {.wrong = attempt_test(c, body, stats)};
     stats->test_s += clock_lap(&start);

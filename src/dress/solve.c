@@ -115,6 +115,8 @@ static void carry(Solver *s, const BodyFrame *body, double dt, Tie tie) {
     s->is_astray = tie == TIE_ASTRAY;
     dent_carry(&c->settler.denter, &c->push.field, body, dt, tie == TIE_GOES_ON);
     field_carry(&c->push.field, body, dt, tie != TIE_GOES_ON, &c->leaves);
+    Leaves *wanted = s->fixed_topology ? &s->grid : &c->leaves;
+    if (!s->is_astray) morph_carry(&c->morph, dt, tie == TIE_AFRESH, wanted, &s->fresh);
 }
 
 Wrong solver_frame(Solver *s, const BodyFrame *body, const Patch *root, double dt, Tie tie, bool is_global,
