@@ -113,6 +113,18 @@ static void test_kneel(void) {
     rig_close(&found);
 }
 
+/* Feet that stand flat far apart, under shins that slant: the floor tells what is up for them, not the shins. */
+static void test_horse_stance(void) {
+    Rig told, found;
+    if (!OK(rig_open(&told, "tests/data/figure/horse_tpose.bvh", NULL) &&
+                rig_open(&found, "tests/data/figure/horse.bvh", NULL), "riders without a horse open")) return;
+    double left = turn_difference(&told, &found, ROLE_LEFT_FOOT);
+    double right = turn_difference(&told, &found, ROLE_RIGHT_FOOT);
+    OK(fmax(left, right) < 4, "feet under slanting shins lie flat (%.1f and %.1f degrees)", left, right);
+    rig_close(&told);
+    rig_close(&found);
+}
+
 /* Writes the last n frames of a motion. */
 static const char *write_last(const char *from, const char *name, int n) {
     const char *path = in_folder(name);
@@ -154,6 +166,7 @@ int main(void) {
     test_crouch();
     test_pose_in_front();
     test_look_aside();
+    test_horse_stance();
     test_kneel();
     test_only_kneel();
     folder_remove();

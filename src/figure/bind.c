@@ -267,14 +267,14 @@ static int standing(const Binder *b, Role foot, int out[SAMPLE_BEST_MAX]) {
 }
 
 /* What is up for the sole, in the foot's frame: the vertical where the foot stands, if these frames agree with each
-   other and, about, with the shin; else along the shin. */
-static Vec3 up_of_sole(const Binder *b, Role foot, Vec3 along) {
-    static const double ALIKE = 0.99, NEAR = 0.95; /* cosines, means of them */
+   other and, about, with the shin; else along the shin. along falls by about `slope` where the foot is flat. */
+static Vec3 up_of_sole(const Binder *b, Role foot, Vec3 along, double slope) {
+    static const double ALIKE = 0.99, NEAR = 0.85, FLAT = 0.35; /* cosines, means of them; radians */
     int frames[SAMPLE_BEST_MAX], n = standing(b, foot, frames);
     Vec3 shin = up_the_shin(b, foot, along), up = {0, 0, 0};
     for (int i = 0; i < n; i++)
         up = vec_add(up, mat_column(mat_transpose(turn(b, frames[i], b->f->roles.joint[foot])), 1));
-    if (n < 3 || vec_len(up) < ALIKE * n) return shin;
+    if (n < 3 || vec_len(up) < ALIKE * n || fabs(asin(-vec_dot(along, up) / n) - slope) > FLAT) return shin;
     Vec3 left = vec_unit_or(vec_cross(up, along), vec(0, 0, 0));
     return vec_dot(left, vec_unit_or(vec_cross(shin, along), left)) > NEAR ? up : shin;
 }
@@ -290,7 +290,7 @@ static Mat3 foot_from_rest(const Binder *b, Role foot, const Rest *rest) {
     if (fabs(fall) > 0.87 || vec_dot(along, mat_column(flat, 2)) <= 0) return flat;
     bool astride = fabs(vec_dot(rest_bone(rest, b->f, foot - 1), mat_column(rest->frame, 0))) > ASTRIDE;
     bool flipped = vec_dot(vec_cross(up, along), vec_cross(up_the_shin(b, foot, along), along)) < 0;
-    return sole(along, astride || flipped ? up_of_sole(b, foot, along) : up, asin(fall));
+    return sole(along, astride || flipped ? up_of_sole(b, foot, along, asin(fall)) : up, asin(fall));
 }
 
 /* Of feet that lie along the shins throughout, as of those who crawl: they have their left where the hips have it. */
@@ -320,7 +320,7 @@ static bool foot_from_frames(const Binder *b, Role foot, Mat3 *bind) {
     }
     int n = standing(b, foot, frames);
     for (int i = 0; i < n; i++) slope += asin(clamp(-mat_apply(turn(b, frames[i], joint), along).y, -1, 1)) / n;
-    *bind = sole(along, up_of_sole(b, foot, along), clamp(slope, usual - UNUSUAL, usual + UNUSUAL));
+    *bind = sole(along, up_of_sole(b, foot, along, usual), clamp(slope, usual - UNUSUAL, usual + UNUSUAL));
     return true;
 }
 
