@@ -32,7 +32,7 @@ static inline double height_at(const BodyPart *part, double t) { return part->lo
 
 /* The point of the surface at height y in direction phi (0 = front, to the part's +x). */
 static inline Vec3 surface_point(const BodyPart *part, double y, double phi, double swell) {
-    Section s = body_section_at(part, y, NULL);
+    Section s = body_section_at(part, y);
     double x = sin(phi), z = cos(phi);
     return vec(s.x + swell * s.side * x, y, s.z + swell * (z > 0 ? s.front : s.back) * z);
 }

@@ -238,7 +238,7 @@ static void test_monotone(const Body *b) {
         for (int k = 0; k + 1 < b->part[i].nsections; k++)
             for (int j = 0; j <= 20; j++) {
                 Section low = b->part[i].section[k], high = b->part[i].section[k + 1];
-                Section s = body_section_at(&b->part[i], low.at + (high.at - low.at) * j / 20, NULL);
+                Section s = body_section_at(&b->part[i], low.at + (high.at - low.at) * j / 20);
                 outside += !between(s.x, low.x, high.x) || !between(s.z, low.z, high.z) ||
                            !between(s.side, low.side, high.side) || !between(s.front, low.front, high.front) ||
                            !between(s.back, low.back, high.back);

@@ -55,10 +55,10 @@ static void test_reference(void) {
     int same = 0;
     for (int r = 0; r < ROLE_COUNT; r++) same += vec_dist(rigid_apply(rest.bone[r], f.start[r]), f.start[r]) == 0;
     OK(same == ROLE_COUNT, "in the rest pose every bone is where it stands");
-    NEAR(figure_speed(&f, &rest, &rest, 0.1), 0, 0, "no move, no speed");
+    NEAR(figure_step(&f, &rest, &rest), 0, 0, "no move, no step");
     Pose moved = rest;
     for (int r = 0; r < ROLE_COUNT; r++) moved.bone[r].t = vec(0, 0, 0.34);
-    NEAR(figure_speed(&f, &rest, &moved, 0.1), 2, 1e-12, "0.34 m in 0.1 s are 2 heights a second");
+    NEAR(figure_step(&f, &rest, &moved), 0.2, 1e-12, "0.34 m are a step of a fifth of the height");
 }
 
 /* --- every family the same human --- */

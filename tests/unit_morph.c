@@ -53,7 +53,7 @@ static double show_jump(Show *w) {
         need(s, boxtree_build(&tree, w->point[k], w->triangle[k], NULL, w->ntriangles[k], &s->arena, &s->error));
         for (int v = 0; v < w->npoints[!k]; v++) {
             Vec3 at;
-            boxtree_nearest(&tree, w->point[!k][v], INFINITY, NULL, &at);
+            boxtree_nearest(&tree, w->point[!k][v], NULL, &at);
             worst = fmax(worst, vec_dist(at, w->point[!k][v]));
         }
     }

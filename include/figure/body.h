@@ -131,9 +131,8 @@ static inline int body_interval(const BodyPart *part, double y) {
 #define BODY_POLE 1e-6
 #define BODY_LEANING 0.2
 
-/* The section at height y of the part frame, clamped to the part's range. *slope, if not NULL,
-   gets d/dy of its values. */
-Section body_section_at(const BodyPart *part, double y, Section *slope);
+/* The section at height y of the part frame, clamped to the part's range. */
+Section body_section_at(const BodyPart *part, double y);
 
 /* The section of a part at `at` bone lengths from its start, in metres (centre, half sizes),
    clamped to the part's range. */

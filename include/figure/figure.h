@@ -57,8 +57,8 @@ void figure_pose(const Figure *f, const Rigid *world, Pose *out);
 /* The pose in which every bone is where it stands in the canonical stance. */
 Pose figure_rest_pose(void);
 
-/* How far two poses are apart for a body dt seconds later: the largest speed of a bone end in
-   heights a second. Used to find T-pose first frames and teleports. */
-double figure_speed(const Figure *f, const Pose *a, const Pose *b, double dt);
+/* How far two poses are apart: the longest way of a bone end, in heights. Used to find T-pose first frames and
+   teleports. */
+double figure_step(const Figure *f, const Pose *a, const Pose *b);
 
 #endif

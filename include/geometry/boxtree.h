@@ -35,9 +35,9 @@ typedef struct {
 BoxWalk boxtree_walk(const BoxTree *tree, Box box);
 int boxtree_next(BoxWalk *walk);
 
-/* Distance from p to the nearest triangle, if it is less than `limit`, with that triangle and its
-   point nearest to p (both may be NULL); else `limit`, and they stay as they are. */
-double boxtree_nearest(const BoxTree *tree, Vec3 p, double limit, int *triangle, Vec3 *point);
+/* Distance from p to the nearest triangle, with that triangle and its point nearest to p (both may be NULL). INFINITY
+   from a tree without triangles, and they stay as they are. */
+double boxtree_nearest(const BoxTree *tree, Vec3 p, int *triangle, Vec3 *point);
 
 /* The point of a closed triangle, perhaps collapsed, that is nearest to p. */
 Vec3 boxtree_triangle_point(Vec3 p, Vec3 a, Vec3 b, Vec3 c);

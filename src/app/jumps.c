@@ -22,7 +22,7 @@ static double pelvis_step(const Figure *f, const Pose *behind, const Pose *ahead
 
 Step jumps_judge(const JumpRule *rule, int frame, const Pose *behind, const Pose *ahead, double *width) {
     double dt = rule->frame_time, pelvis = pelvis_step(rule->figure, behind, ahead);
-    *width = figure_speed(rule->figure, behind, ahead, 1);
+    *width = figure_step(rule->figure, behind, ahead);
     bool is_fast = *width > WIDE_LIMB && *width > FAST_LIMB * dt;
     if (frame == 1 && rule->lone_first) return STEP_JUMP;
     if (pelvis > WIDE_PELVIS && pelvis > FAST_PELVIS * dt) return STEP_JUMP;

@@ -75,7 +75,7 @@ static bool look_at_first(Take *t, Error *e) {
     if (!load(t, &t->ahead, 0, e)) return false;
     for (int i = 1; i <= look; i++) {
         if (!shift(t, e)) return false;
-        double width = figure_speed(t->figure, &t->behind.pose, &t->ahead.pose, 1); /* in heights */
+        double width = figure_step(t->figure, &t->behind.pose, &t->ahead.pose);
         if (i == 1) first = width;
         else if (width > widest) widest = width;
     }

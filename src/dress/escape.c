@@ -69,7 +69,7 @@ static bool side_of(const Escape *s, const BodyFrame *body, const EscapePoint *p
     Vec3 q = rigid_unapply(b->frame, s->rest[p->place]);
     if (q.y < 0 || q.y > b->length)
         return !s->lattice->fit->garment->loose && side_in_fold(body, part, p->point.at, q.y < 0, side);
-    Section c = body_section_at(b, q.y, NULL);
+    Section c = body_section_at(b, q.y);
     *side = mat_apply(body->to_world[part], vec_unit_or(vec(q.x - c.x, 0, q.z - c.z), vec(1, 0, 0)));
     return true;
 }

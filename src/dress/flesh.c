@@ -75,7 +75,7 @@ static void find_fold(const BodyFrame *f, int upper, int lower, Contact *of_uppe
     const BodyPart *part = &f->body->part[lower];
     Vec3 joint = rigid_apply(f->pose.bone[part->role], part->frame.t);
     Vec3 up = vec_scale(mat_column(f->to_world[upper], 1), -1), down = mat_column(f->to_world[lower], 1);
-    Section s = body_section_at(part, 0, NULL);
+    Section s = body_section_at(part, 0);
     yield_fold(joint, up, down, fmax(s.front, s.back), of_upper, of_lower);
 }
 

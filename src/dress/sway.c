@@ -45,7 +45,7 @@ static Vec3 follow(const SwayFrame *from, const SwayFrame *to, Vec3 p, int t) {
     const int *v = from->body->triangle[t].v;
     Vec3 moved = {0, 0, 0}, place = p;
     for (int k = 0; k < 3; k++) moved = vec_add(moved, vec_sub(to->body->position[v[k]], from->body->position[v[k]]));
-    boxtree_nearest(&to->garment_tree, vec_mad(p, moved, 1.0 / 3), INFINITY, NULL, &place);
+    boxtree_nearest(&to->garment_tree, vec_mad(p, moved, 1.0 / 3), NULL, &place);
     return place;
 }
 
@@ -53,7 +53,7 @@ static double measure_followed(const SwayFrame *a, const SwayFrame *b, const Swa
     for (int v = 0; v < b->garment->nvertices; v++) {
         Vec3 p = b->garment->position[v];
         int t = 0;
-        boxtree_nearest(&b->body_tree, p, INFINITY, &t, NULL);
+        boxtree_nearest(&b->body_tree, p, &t, NULL);
         room[v] = second_difference(follow(b, a, p, t), p, follow(b, c, p, t));
     }
     return percentile(room, b->garment->nvertices);

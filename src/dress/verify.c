@@ -76,7 +76,7 @@ static void find_inside(Check *c, int v) {
         const Shell *shell = &c->body->shells.shell[s];
         int nearest = -1;
         if (!shell_holds(shell, p)) continue;
-        double d = boxtree_nearest(&shell->surface, p, INFINITY, &nearest, NULL);
+        double d = boxtree_nearest(&shell->surface, p, &nearest, NULL);
         if (f.other < 0 || d > f.distance) f.distance = d, f.other = nearest;
     }
     if (f.other < 0) return;

@@ -111,16 +111,15 @@ static inline void shape_in(const BodyPart *part, int i, double y, double v[SHAP
     }
 }
 
-Section body_section_at(const BodyPart *part, double y, Section *slope) {
+Section body_section_at(const BodyPart *part, double y) {
     double v[SHAPE_VALUES], d[SHAPE_VALUES];
     y = clamp(y, part->low, part->high);
     shape_in(part, body_interval(part, y), y, v, d);
-    if (slope) *slope = (Section){1, d[0], d[1], d[2], d[3], d[4]};
     return (Section){y, v[0], v[1], v[2], v[3], v[4]};
 }
 
 Section body_section(const BodyPart *part, double at) {
-    Section s = body_section_at(part, at * part->length, NULL);
+    Section s = body_section_at(part, at * part->length);
     s.at /= part->length;
     return s;
 }

@@ -81,7 +81,7 @@ static int ring_heights(const BodyPart *part, double scale, int detail, double y
     Section last = part->section[0];
     sum[0] = 0;
     for (int i = 1; i <= STEPS; i++) {
-        Section s = body_section_at(part, part->low + i * step, NULL);
+        Section s = body_section_at(part, part->low + i * step);
         double radius = mean_radius(&s), facet = 2 * PI / detail * fmax(radius, least);
         sum[i] = sum[i - 1] + hypot(step, radius - mean_radius(&last)) / facet;
         last = s;
@@ -115,7 +115,7 @@ static void place_vertices(const BodyPart *part, double scale, Mesh *skin, int d
     int rings = ring_heights(part, scale, detail, y), last = part->nsections - 1, round = detail / 4;
     Vec3 *position = skin->position + part->first_vertex, *normal = skin->normal + part->first_vertex;
     for (int ring = 0; ring < rings; ring++) {
-        Section s = body_section_at(part, y[ring], NULL);
+        Section s = body_section_at(part, y[ring]);
         for (int k = 0; k < detail; k++) {
             double x, z;
             arc_point(k / round, (double)(k % round) / round, &x, &z);

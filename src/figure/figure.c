@@ -190,11 +190,11 @@ Pose figure_rest_pose(void) {
     return pose;
 }
 
-double figure_speed(const Figure *f, const Pose *a, const Pose *b, double dt) {
+double figure_step(const Figure *f, const Pose *a, const Pose *b) {
     double most = 0;
     for (int r = 0; r < ROLE_COUNT; r++) {
         double d = vec_dist(rigid_apply(a->bone[r], f->end[r]), rigid_apply(b->bone[r], f->end[r]));
         if (d > most) most = d;
     }
-    return most / f->height / (dt > 1e-9 ? dt : 1e-9);
+    return most / f->height;
 }

@@ -69,20 +69,20 @@ static int compare(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Distance between two joints at a quantile of the frames; 0 where one is missing. */
-static double distance_at(const Sample *s, double quantile, int a, int b) {
+/* Distance between two joints in most frames; 0 where one is missing. */
+static double median_distance(const Sample *s, int a, int b) {
     double d[SAMPLE_FRAMES_MAX];
     int n = s->count;
     if (a < 0 || b < 0) return 0;
     for (int f = 0; f < n; f++) d[f] = vec_dist(sample_point(s, f, a), sample_point(s, f, b));
     qsort(d, (size_t)n, sizeof d[0], compare);
-    return d[(int)(quantile * (n - 1))];
+    return d[(n - 1) / 2];
 }
 
 /* Mean length of the left and the right bone. */
 static double bone_length(const Sample *s, const Figure *f, Role left, Role right) {
-    return 0.5 * (distance_at(s, 0.5, f->roles.joint[left], f->toward[left]) +
-                  distance_at(s, 0.5, f->roles.joint[right], f->toward[right]));
+    return 0.5 * (median_distance(s, f->roles.joint[left], f->toward[left]) +
+                  median_distance(s, f->roles.joint[right], f->toward[right]));
 }
 
 /* The measured length where it is between low and high times the usual, else the usual. */
@@ -216,12 +216,12 @@ static Lengths measure_lengths(const Sample *s, const Rest *rest, const Figure *
     double left = ankle_height(s, rest, f, ROLE_LEFT_FOOT);
     double right = ankle_height(s, rest, f, ROLE_RIGHT_FOOT);
     return (Lengths){
-        .hips = distance_at(s, 0.5, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]),
+        .hips = median_distance(s, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]),
         .thigh = bone_length(s, f, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH),
         .shin = bone_length(s, f, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN),
         .ankle = left >= 0 && right >= 0 ? 0.5 * (left + right) : -1,
         .torso = torso_length(s, rest, &f->roles),
-        .shoulders = distance_at(s, 0.5, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]),
+        .shoulders = median_distance(s, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]),
         .upper_arm = bone_length(s, f, ROLE_LEFT_UPPER_ARM, ROLE_RIGHT_UPPER_ARM),
         .forearm = bone_length(s, f, ROLE_LEFT_FOREARM, ROLE_RIGHT_FOREARM),
         .hand = bone_length(s, f, ROLE_LEFT_HAND, ROLE_RIGHT_HAND),

@@ -130,7 +130,7 @@ typedef struct {
 
 static Slice slice_of(const Search *s, const BodyPart *part, double y) {
     Rigid g = rigid_mul(s->pose->bone[part->role], part->frame);
-    Section c = body_section_at(part, y, NULL);
+    Section c = body_section_at(part, y);
     Slice out = {rigid_apply(g, vec(c.x, y, c.z)), g.r, c, padding_at(s->padding, part, y, 0), 0};
     if (part->role == upper_arm(s->arm))
         out.grace = ARMPIT_DEPTH * figure_scale(s->figure->height) *

@@ -161,10 +161,10 @@ static void look_into(Nearest *s, int at) {
     if (d[!near] < s->least) look_into(s, node->first + !near);
 }
 
-double boxtree_nearest(const BoxTree *tree, Vec3 p, double limit, int *triangle, Vec3 *point) {
-    Nearest s = {.tree = tree, .p = p, .least = limit * limit, .triangle = -1};
+double boxtree_nearest(const BoxTree *tree, Vec3 p, int *triangle, Vec3 *point) {
+    Nearest s = {.tree = tree, .p = p, .least = INFINITY, .triangle = -1};
     look_into(&s, 0);
-    if (s.triangle < 0) return limit;
+    if (s.triangle < 0) return INFINITY;
     if (triangle) *triangle = s.triangle;
     if (point) *point = s.point;
     return sqrt(s.least);
