@@ -55,6 +55,27 @@ static void test_crouch(void) {
     rig_close(&found);
 }
 
+/* The same crouch with a first bone of the spine that is short and leads backwards, as to a sacrum: it is not upright. */
+static void test_sacrum(void) {
+    const char *path = in_folder("sacrum.bvh");
+    FILE *in = fopen("tests/data/figure/crouch.bvh", "r"), *out = fopen(path, "w");
+    char line[4096];
+    for (int spine = 0; fgets(line, sizeof line, in);) {
+        bool next = spine == 1 && strstr(line, "OFFSET");
+        if (strstr(line, "OFFSET 9.35") || next) spine++;
+        fputs(next ? "OFFSET 14.125 0 -2.5\n" : strstr(line, "OFFSET 9.35") ? "OFFSET 5 0 2.5\n" : line, out);
+    }
+    fclose(in);
+    fclose(out);
+    Rig told, found;
+    if (!OK(rig_open(&told, "tests/data/figure/crouch_tpose.bvh", NULL) && rig_open(&found, path, NULL), "it opens"))
+        return;
+    double off = turn_difference(&told, &found, ROLE_PELVIS);
+    OK(off < 9, "a pelvis with a sacrum turns the same way (%.1f degrees)", off);
+    rig_close(&told);
+    rig_close(&found);
+}
+
 /* The same crouch with a T-pose in front: that frame tells as much as a human zero pose. */
 static void test_pose_in_front(void) {
     Rig told, found;
@@ -164,6 +185,7 @@ int main(void) {
     test_lying();
     test_toppled();
     test_crouch();
+    test_sacrum();
     test_pose_in_front();
     test_look_aside();
     test_horse_stance();

@@ -151,8 +151,8 @@ static Mat3 lean_within(Mat3 bind, Vec3 line, double most) {
     return mat_mul(bind, mat_axis_angle(vec(1, 0, 0), lean - clamp(lean, -most, most)));
 }
 
-/* The spine's first bone over the pelvis and the line from the chest to the neck are upright in those who stand,
-   whatever the rig; bones shorter than this (in statures) say nothing. */
+/* The spine over the pelvis and the line from the chest to the neck are upright in those who stand, whatever the rig;
+   bones shorter than this (in statures) say nothing. */
 static const double SAYS = 0.03;
 
 /* How much the frames know of a pelvis: all where somebody stands straight in them, else nothing. */
@@ -169,16 +169,19 @@ static Mat3 pelvis_from_rest(Mat3 rest, Mat3 level, double known) {
     return lean_within(rest, mat_column(level, 1), PELVIS_LEAN + (1 - known) * PI);
 }
 
+/* The line to the first joint of the spine that is FAR from the pelvis (statures), or to the chest: nearer ones lie at
+   the sacrum, up to 30 degrees behind, farther ones move when the back bends. */
 static Mat3 pelvis_from_bones(const Binder *b, Mat3 level, double known) {
+    static const double FAR = 0.09;
     static const double STANDS = 0.44, NEVER_STANDS = 0.09; /* how far the frames may differ from the bones */
     const Figure *f = b->f;
-    int pelvis = f->roles.joint[ROLE_PELVIS];
-    Vec3 first = {0, 0, 0};
-    for (int j = f->roles.joint[ROLE_CHEST]; j > pelvis; j = b->skeleton->joint[j].parent) {
-        Vec3 bone = seen_from(b, pelvis, j);
-        if (vec_len(bone) > SAYS * f->height) first = bone;
+    int pelvis = f->roles.joint[ROLE_PELVIS], chest = f->roles.joint[ROLE_CHEST];
+    Vec3 spine = {0, 0, 0};
+    for (int j = chest; j > pelvis; j = b->skeleton->joint[j].parent) {
+        Vec3 line = seen_from(b, pelvis, j);
+        if (vec_len(line) > (j == chest ? SAYS : FAR) * f->height) spine = line;
     }
-    return vec_len(first) > 0 ? lean_within(level, first, NEVER_STANDS + known * (STANDS - NEVER_STANDS)) : level;
+    return vec_len(spine) > 0 ? lean_within(level, spine, NEVER_STANDS + known * (STANDS - NEVER_STANDS)) : level;
 }
 
 static Mat3 chest_from_bones(const Binder *b, Mat3 bind) {
