@@ -55,7 +55,7 @@ static void test_crouch(void) {
     rig_close(&found);
 }
 
-/* The same crouch with a first bone of the spine that is short and leads backwards, as to a sacrum: it is not upright. */
+/* The same crouch with a first bone of the spine that is short and leads backwards, as to a sacrum. */
 static void test_sacrum(void) {
     const char *path = in_folder("sacrum.bvh");
     FILE *in = fopen("tests/data/figure/crouch.bvh", "r"), *out = fopen(path, "w");
