@@ -104,18 +104,22 @@ bool settle_raise(Settler *s, Push *p, int vertex, double by, double most) {
     return true;
 }
 
-/* Moves the corners of a hit by the least that takes its point, at x, as far off the part as `clearance`. */
-static void move_off(const Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit,
-                     int place, Vec3 x, bool is_worn) {
+/* Moves the corners of a hit by the least that takes its point as far off the part as it should be. */
+static void move_off(const Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit) {
+    int place = sheet->place[tester_hit_vertex(hit)];
+    bool is_worn = escape_is_own(&p->escape, body, place, hit->part);
     double clearance = (is_worn ? JUST_CLEAR : 1) * PUSH_MARGIN * p->field.scale, norm2 = 0;
     EscapePoint at;
-    Vec3 n;
+    Vec3 x = {0, 0, 0}, n;
+    for (int c = 0; c < hit->n; c++) {
+        x = vec_mad(x, p->point[hit->v[c]], hit->weight[c]);
+        norm2 += hit->weight[c] * hit->weight[c];
+    }
     double distance = body_frame_distance(body, hit->part, x, clearance, &n);
     if (distance >= clearance) return; /* another hit has moved it */
     escape_at(&at, place, x, clearance);
     double way = escape_way(&p->escape, body, &at, hit->part, clearance, distance, &n);
     if (way > OFFSET_MAX * p->field.scale) return; /* out of reach */
-    for (int c = 0; c < hit->n; c++) norm2 += hit->weight[c] * hit->weight[c];
     for (int c = 0; c < hit->n; c++) {
         int v = hit->v[c];
         double by = way * hit->weight[c] / norm2;
@@ -125,16 +129,15 @@ static void move_off(const Settler *s, Push *p, const BodyFrame *body, const She
     }
 }
 
+/* A part that it is worn over takes cloth out of its hollow first; what is left waits until all corners are raised. */
 void settle_hit(Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit) {
-    Vec3 x = {0, 0, 0};
-    for (int c = 0; c < hit->n && p->field.lattice->fit->collide & part_bit(body, hit->part); c++)
-        dent_back(&s->denter, p, sheet, hit->v[c]);
+    bool is_worn_over = p->field.lattice->fit->collide & part_bit(body, hit->part);
+    bool is_all_raised = true;
     for (int c = 0; c < hit->n; c++) {
-        if (!is_raised(p, hit->v[c])) return;
-        x = vec_mad(x, p->point[hit->v[c]], hit->weight[c]);
+        if (is_worn_over) dent_back(&s->denter, p, sheet, hit->v[c]);
+        is_all_raised = is_all_raised && is_raised(p, hit->v[c]);
     }
-    int place = sheet->place[tester_hit_vertex(hit)];
-    move_off(s, p, body, sheet, hit, place, x, escape_is_own(&p->escape, body, place, hit->part));
+    if (is_all_raised) move_off(s, p, body, sheet, hit);
 }
 
 void settle_mark(Settler *s, const Push *p, const Sheet *sheet) {
