@@ -6,9 +6,9 @@
 
 /* A vertex that a limb from outside has in front of it, or behind it. */
 typedef struct {
-    Vec3 at, way;         /* where it is, and in which direction it is pressed in (unit), */
-    double depth, radius; /* how far, and how far about its hollow goes; metres */
-    int limb, vertex;
+    Vec3 at;
+    double depth, radius; /* how far it is pressed in, and how far about its hollow goes; metres */
+    int vertex;
 } Presser;
 
 typedef struct {

@@ -20,6 +20,7 @@ static const double WIDE = 0.05, WIDENS = 1.2; /* radius of a hollow: metres on 
 static const double FACES = 0.5;    /* cosine of cloth to the way of a limb, from which on it is pressed in fully */
 static const double STEEP = 2;      /* a hollow's sides: metres inwards per metre of cloth; */
 static const double SHRINKS = 0.8;  /* and where cloth goes towards its neighbour, that share of their distance */
+static const double CHORD = 0.03;   /* share of its depth that a hollow stops short: its facets cut across the round */
 static const double POINTED = 0.3;  /* squared sine between limb and way: below that the limb pokes rather than lies */
 static const double BACK = 0.005;   /* metres on 1.70 m: first step out of a hollow; */
 static const double MOST_BACK = 0.03; /* after so much it is given up */
@@ -75,8 +76,9 @@ static unsigned outsiders(const Push *p, const BodyFrame *body) {
 
 /* Which limbs touch the cloth, as parts from outside (bits 1 << part), and the way in which each presses (unit). */
 typedef struct {
-    unsigned parts;
+    unsigned parts[LIMBS];
     Vec3 way[LIMBS];
+    Box before[LIMBS];      /* what may have them in its way */
 } Touch;
 
 /* Adds what a vertex is too near to: the nearer the more its way into the garment counts. */
@@ -89,9 +91,9 @@ static void add_touch(Touch *t, const Push *p, const BodyFrame *body, const Shee
         if (body_frame_far(body, k, p->point[vertex], clearance)) continue;
         double missing = clearance - body_frame_distance(body, k, p->point[vertex], clearance, NULL);
         if (missing <= 0) continue;
-        Vec3 *way = &t->way[limb_of(body, k)];
-        *way = vec_mad(*way, inwards(p, place), missing);
-        t->parts |= 1u << k;
+        int limb = limb_of(body, k);
+        t->way[limb] = vec_mad(t->way[limb], inwards(p, place), missing);
+        t->parts[limb] |= 1u << k;
     }
 }
 
@@ -105,19 +107,33 @@ static Vec3 across_arm(const BodyFrame *body, int limb, Vec3 way) {
     return vec_unit_or(vec_mad(way, along, -c * smoothstep(0, POINTED, 1 - c * c)), way);
 }
 
+/* All of a limb presses where a part of it touches. */
+static void complete(Touch *t, const Push *p, const BodyFrame *body, int limb, unsigned outside) {
+    double clearance = PUSH_MARGIN * p->field.scale;
+    Vec3 far = vec(clearance, clearance, clearance);
+    t->way[limb] = across_arm(body, limb, vec_unit_or(t->way[limb], vec(0, 0, 0)));
+    t->before[limb] = box_empty();
+    for (unsigned left = outside; left; left &= left - 1) {
+        int k = near_first(left);
+        if (limb_of(body, k) != limb) continue;
+        t->parts[limb] |= 1u << k;
+        Vec3 low = vec_sub(body->box[k].low, far), high = vec_add(body->box[k].high, far);
+        for (int before = 0; before < 2; before++) {
+            box_add(&t->before[limb], vec_mad(low, t->way[limb], before ? -p->field.cap : 0));
+            box_add(&t->before[limb], vec_mad(high, t->way[limb], before ? -p->field.cap : 0));
+        }
+    }
+}
+
 static Touch find_touch(const Push *p, const BodyFrame *body, const Sheet *sheet) {
-    Touch t = {.parts = 0};
-    unsigned outside = outsiders(p, body), touching = 0;
+    Touch t = {.parts = {0}};
+    unsigned outside = outsiders(p, body);
     for (int v = 0; v < sheet->nvertices; v++) {
         double slack = near_slack(p->near[v].least, p->clearance[v]);
         if (slack <= vec_dist(p->point[v], p->near[v].seen)) add_touch(&t, p, body, sheet, v, outside);
     }
-    for (int k = 0; k < body->body->nparts; k++)
-        if (t.parts >> k & 1) touching |= 1u << limb_of(body, k);
-    for (int k = 0; k < body->body->nparts; k++)
-        if (outside >> k & 1 && touching >> limb_of(body, k) & 1) t.parts |= 1u << k;
     for (int limb = 0; limb < LIMBS; limb++)
-        t.way[limb] = across_arm(body, limb, vec_unit_or(t.way[limb], vec(0, 0, 0)));
+        if (t.parts[limb]) complete(&t, p, body, limb, outside);
     return t;
 }
 
@@ -127,8 +143,9 @@ static void clip(double at, double n, double low, double high, double *from, dou
         if (at < low || at > high) *to = -1;
         return;
     }
-    *from = fmax(*from, ((n > 0 ? low : high) - at) / n);
-    *to = fmin(*to, ((n > 0 ? high : low) - at) / n);
+    double enters = ((n > 0 ? low : high) - at) / n, leaves = ((n > 0 ? high : low) - at) / n;
+    if (enters > *from) *from = enters;
+    if (leaves < *to) *to = leaves;
 }
 
 /* How far cloth at `at` has to go along n to have all of a part behind it: from where the part's box ends, or `most`,
@@ -151,26 +168,21 @@ static double way_past(const BodyFrame *body, int part, Vec3 at, Vec3 n, double 
    garment does not. */
 static double facing(Vec3 inwards, Vec3 n) { return smoothstep(0, FACES, vec_dot(inwards, n)); }
 
-/* The part that presses a vertex in the farthest; false where none does. */
-static bool find_presser(const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, const Touch *t,
+/* Does a limb press a vertex in, with the part that does so the farthest? */
+static bool find_presser(const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, const Touch *t, int limb,
                          Presser *out) {
     int place = sheet->place[vertex];
-    double clearance = PUSH_MARGIN * p->field.scale;
-    *out = (Presser){.at = p->point[vertex], .vertex = vertex};
-    for (unsigned left = t->parts; left; left &= left - 1) {
-        int k = near_first(left), limb = limb_of(body, k);
-        Vec3 n = t->way[limb];
+    double clearance = PUSH_MARGIN * p->field.scale, depth = 0;
+    Vec3 at = p->point[vertex], n = t->way[limb];
+    for (unsigned left = t->parts[limb]; left; left &= left - 1) {
+        int k = near_first(left);
         if (p->field.lattice->collide[place] & part_bit(body, k)) continue;
-        double depth = way_past(body, k, out->at, n, clearance, p->field.cap);
-        if (depth > out->depth) depth *= facing(inwards(p, place), n);
-        if (depth > out->depth) depth = escape_free(&p->escape, body, place, out->at, clearance, n, depth);
-        if (depth <= out->depth) continue;
-        out->depth = depth;
-        out->limb = limb;
-        out->way = n;
+        depth = fmax(depth, way_past(body, k, at, n, clearance, p->field.cap));
     }
-    out->radius = WIDE * p->field.scale + WIDENS * out->depth;
-    return out->depth > 0;
+    if (depth > 0) depth *= facing(inwards(p, place), n);
+    if (depth > 0) depth = escape_free(&p->escape, body, place, at, clearance, n, depth);
+    *out = (Presser){at, depth, WIDE * p->field.scale + WIDENS * depth, vertex};
+    return depth > 0;
 }
 
 static int deepest_first(const void *a, const void *b) {
@@ -179,57 +191,62 @@ static int deepest_first(const void *a, const void *b) {
     return x->vertex - y->vertex;
 }
 
-static void find_pressers(Denter *d, const Push *p, const BodyFrame *body, const Sheet *sheet) {
-    Touch t = find_touch(p, body, sheet);
-    d->npressers = 0;
-    for (int v = 0; v < sheet->nvertices && t.parts; v++)
-        d->npressers += find_presser(p, body, sheet, v, &t, &d->presser[d->npressers]);
-    qsort(d->presser, (size_t)d->npressers, sizeof *d->presser, deepest_first);
+/* A limb's hollow, without what is left of those of the frame before. */
+typedef struct {
+    Vec3 way;
+    const Presser *presser; /* deepest first */
+    int n;
+    Box reach;
+} Hollow;
+
+/* The pressers of a limb, to follow those that there are. */
+static Hollow find_hollow(Denter *d, const Push *p, const BodyFrame *body, const Sheet *sheet, const Touch *t,
+                          int limb) {
+    Presser *first = d->presser + d->npressers;
+    Hollow h = {.way = t->way[limb], .presser = first, .reach = box_empty()};
+    for (int v = 0; v < sheet->nvertices && d->npressers + h.n < d->nplaces; v++) {
+        if (!box_touches(t->before[limb], (Box){p->point[v], p->point[v]})) continue;
+        h.n += find_presser(p, body, sheet, v, t, limb, &first[h.n]);
+    }
+    qsort(first, (size_t)h.n, sizeof *first, deepest_first);
+    for (int k = 0; k < h.n; k++) box_add(&h.reach, first[k].at);
+    Vec3 far = vec_scale(vec(1, 1, 1), h.n > 0 ? first[0].radius : 0);
+    h.reach = (Box){vec_sub(h.reach.low, far), vec_add(h.reach.high, far)};
+    d->npressers += h.n;
+    return h;
 }
 
-/* What the pressers make of a vertex at x: of each limb the deepest hollow there. Returns the depth of the deepest,
-   and adds all of them to *way. */
-static double hollow_at(const Denter *d, Vec3 x, Vec3 inwards, Vec3 *way) {
-    double depth[LIMBS] = {0}, deepest = 0;
-    Vec3 of[LIMBS] = {{0}};
-    for (int k = 0; k < d->npressers; k++) {
-        const Presser *by = &d->presser[k];
-        if (by->depth <= depth[by->limb]) continue;
+/* How deep a hollow is at x. */
+static double depth_at(const Hollow *h, Vec3 x) {
+    double depth = 0;
+    for (int k = 0; k < h->n && h->presser[k].depth > depth; k++) {
+        const Presser *by = &h->presser[k];
         Vec3 off = vec_sub(x, by->at);
         double rest = 1 - vec_dot(off, off) / (by->radius * by->radius);
-        if (rest <= 0) continue;
-        depth[by->limb] = fmax(depth[by->limb], rest * rest * facing(inwards, by->way) * by->depth);
-        of[by->limb] = by->way;
+        if (rest > 0 && rest * rest * by->depth > depth) depth = rest * rest * by->depth;
     }
-    for (int limb = 0; limb < LIMBS; limb++) {
-        deepest = fmax(deepest, depth[limb]);
-        *way = vec_mad(*way, of[limb], depth[limb]);
-    }
-    return deepest;
+    return depth;
 }
 
-/* All that any hollow reaches. */
-static Box reach(const Denter *d) {
-    Box box = box_empty();
-    if (d->npressers == 0) return box;
-    for (int k = 0; k < d->npressers; k++) box_add(&box, d->presser[k].at);
-    Vec3 far = vec_scale(vec(1, 1, 1), d->presser[0].radius);
-    return (Box){vec_sub(box.low, far), vec_add(box.high, far)};
-}
-
-/* How far a vertex is pressed in, and which way, as there is room: by the pressers, or from the frame before. */
-static void find_depth(Denter *d, const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, Box reach) {
+/* How far a vertex is pressed in, and which way, as there is room: by limbs, or from the frame before. */
+static void find_depth(Denter *d, const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex,
+                       const Hollow *hollow, int nhollows) {
     int place = sheet->place[vertex];
-    Vec3 at = p->point[vertex], held = d->held.at[place];
-    bool is_reached = box_touches(reach, (Box){at, at});
+    Vec3 at = p->point[vertex], way = d->held.at[place], n = {0, 0, 0};
+    double depth = vec_len(way);
     d->depth[vertex] = 0;
-    if ((!is_reached && field_is_zero(held)) || d->spare[place] > MOST_BACK * p->field.scale) return;
-    double depth = vec_len(held);
-    Vec3 n = inwards(p, place), way = held;
-    if (is_reached) depth = fmax(depth, hollow_at(d, at, n, &way));
+    if (d->spare[place] > MOST_BACK * p->field.scale) return;
+    for (int k = 0; k < nhollows; k++) {
+        double deep = box_touches(hollow[k].reach, (Box){at, at}) ? depth_at(&hollow[k], at) : 0;
+        if (deep <= 0) continue;
+        if (vec_dot(n, n) == 0) n = inwards(p, place);
+        deep *= facing(n, hollow[k].way);
+        way = vec_mad(way, hollow[k].way, deep);
+        depth = fmax(depth, deep);
+    }
     if (depth <= 0) return;
-    d->way[vertex] = vec_unit_or(way, n);
-    d->depth[vertex] = escape_free(&p->escape, body, place, at, p->clearance[vertex] + d->spare[place],
+    d->way[vertex] = vec_unit_or(way, inwards(p, place));
+    d->depth[vertex] = escape_free(&p->escape, body, place, at, p->clearance[vertex] + d->spare[place] + CHORD * depth,
                                    d->way[vertex], fmin(depth, p->field.cap));
 }
 
@@ -263,19 +280,19 @@ static void set_dent(Push *p, const Sheet *sheet, int vertex, Vec3 dent, bool *c
     field_set_spot(&p->field.dent, place, dent);
 }
 
-static void press_in(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
-    Box box = reach(d);
-    bool capped;
-    for (int v = 0; v < sheet->nvertices; v++) find_depth(d, p, body, sheet, v, box);
-    level(d, p, sheet);
-    for (int v = 0; v < sheet->nvertices; v++)
-        if (d->depth[v] > 0) set_dent(p, sheet, v, vec_scale(d->way[v], d->depth[v]), &capped);
-}
-
 void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
+    Hollow hollow[LIMBS];
+    int n = 0;
+    Touch t = {.parts = {0}};
+    if (!d->is_off) t = find_touch(p, body, sheet);
     d->npressers = 0;
-    if (!d->is_off) find_pressers(d, p, body, sheet);
-    if (!d->is_off && d->npressers + d->held.n > 0) press_in(d, p, body, sheet);
+    for (int limb = 0; limb < LIMBS; limb++)
+        if (t.parts[limb]) hollow[n++] = find_hollow(d, p, body, sheet, &t, limb);
+    bool any = !d->is_off && d->npressers + d->held.n > 0, capped;
+    for (int v = 0; v < sheet->nvertices && any; v++) find_depth(d, p, body, sheet, v, hollow, n);
+    if (any) level(d, p, sheet);
+    for (int v = 0; v < sheet->nvertices && any; v++)
+        if (d->depth[v] > 0) set_dent(p, sheet, v, vec_scale(d->way[v], d->depth[v]), &capped);
     for (int v = 0; v < sheet->nvertices; v++) d->hollow[v] = p->field.dent.at[sheet->place[v]];
 }
 
