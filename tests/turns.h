@@ -11,6 +11,15 @@ static inline double angle(Vec3 a, Vec3 b) {
     return acos(clamp(c, -1, 1)) / DEGREE;
 }
 
+static inline bool is_rotation(Mat3 m) {
+    Mat3 i = mat_mul(m, mat_transpose(m));
+    for (int k = 0; k < 3; k++) {
+        Vec3 row = mat_column(i, k), unit = mat_column(mat_identity(), k);
+        if (vec_dist(row, unit) > 1e-9) return false;
+    }
+    return vec_dot(vec_cross(m.r[0], m.r[1]), m.r[2]) > 0;
+}
+
 /* Angle of the rotation that takes one frame to the other, degrees. */
 static inline double turned(Mat3 a, Mat3 b) {
     Mat3 d = mat_mul(mat_transpose(a), b);

@@ -4,15 +4,6 @@
 #include "tap.h"
 #include "turns.h"
 
-static bool is_rotation(Mat3 m) {
-    Mat3 i = mat_mul(m, mat_transpose(m));
-    for (int k = 0; k < 3; k++) {
-        Vec3 row = mat_column(i, k), unit = mat_column(mat_identity(), k);
-        if (vec_dist(row, unit) > 1e-9) return false;
-    }
-    return vec_dot(vec_cross(m.r[0], m.r[1]), m.r[2]) > 0;
-}
-
 /* --- by definition --- */
 
 static void check_stance(const Figure *f, const char *what) {

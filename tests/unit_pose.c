@@ -1,0 +1,65 @@
+/* A pose puts every limb where the file's joints are: on motions of many families, those that are shipped too. */
+#include "rig.h"
+#include "tap.h"
+#include "turns.h"
+
+/* Bones that point to a joint; the others have turns of their own. */
+static const Role POINTING[] = {
+    ROLE_LEFT_UPPER_ARM, ROLE_LEFT_FOREARM, ROLE_LEFT_HAND, ROLE_RIGHT_UPPER_ARM, ROLE_RIGHT_FOREARM, ROLE_RIGHT_HAND,
+    ROLE_LEFT_THIGH, ROLE_LEFT_SHIN, ROLE_RIGHT_THIGH, ROLE_RIGHT_SHIN};
+
+typedef struct {
+    double off, astray; /* metres from its joint, degrees from its direction: the worst */
+    int asked, crooked; /* bones, and those whose turn is no rotation */
+    double slack;       /* degrees by which pelvis and chest turn in their joints */
+    Mat3 first[2];      /* how they sat there in the first frame */
+} Poses;
+
+static void look_at_trunk(const Rig *r, const Pose *pose, int frame, Poses *p) {
+    for (int k = 0; k < 2; k++) {
+        Role role = k ? ROLE_CHEST : ROLE_PELVIS;
+        Mat3 joint = mat_mul(r->figure.upright, r->world[r->figure.roles.joint[role]].r);
+        Mat3 seat = mat_mul(mat_transpose(joint), pose->bone[role].r);
+        if (frame == 0) p->first[k] = seat;
+        p->slack = fmax(p->slack, turned(p->first[k], seat));
+    }
+}
+
+static void look_at(const Rig *r, const Pose *pose, Poses *p) {
+    const Figure *f = &r->figure;
+    for (int k = 0; k < ROLE_COUNT; k++) p->crooked += !is_rotation(pose->bone[k].r);
+    for (size_t i = 0; i < sizeof POINTING / sizeof POINTING[0]; i++) {
+        Role role = POINTING[i];
+        int joint = f->roles.joint[role], toward = f->toward[role];
+        if (joint < 0 || toward < 0) continue;
+        Vec3 bone = mat_apply(pose->bone[role].r, vec_sub(f->end[role], f->start[role]));
+        Vec3 seen = mat_apply(f->upright, vec_sub(r->world[toward].t, r->world[joint].t));
+        p->asked++;
+        p->off = fmax(p->off, vec_dist(rigid_apply(pose->bone[role], f->start[role]), rig_place(r, role)));
+        p->astray = fmax(p->astray, angle(bone, seen));
+    }
+}
+
+int main(void) {
+    static const char *const files[] = {
+        "motions/paper-walk.bvh", "motions/squat.bvh", "motions/turn.bvh", "tests/data/figure/lafan1.bvh",
+        "tests/data/figure/mixamo.bvh", "tests/data/figure/nameless_axis.bvh", "tests/data/figure/rigify.bvh",
+        "tests/data/figure/smpl.bvh", "tests/data/figure/kinect.bvh", "tests/data/figure/xsens.bvh"};
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        Rig r;
+        Poses p = {0};
+        if (!OK(rig_open(&r, files[i], NULL), "%s opens", files[i])) continue;
+        for (int frame = 0; frame < r.motion.nframes; frame++) {
+            Pose pose = rig_pose(&r, frame);
+            look_at(&r, &pose, &p);
+            look_at_trunk(&r, &pose, frame, &p);
+        }
+        OK(p.crooked == 0, "every bone moves rigidly");
+        OK(p.slack < 1e-4, "pelvis and chest turn with their joints (%.2g degrees off)", p.slack);
+        OK(p.asked == 10 * r.motion.nframes && p.off < 0.001, "all %d limb bones begin at their joints (%.2g m off)",
+           p.asked / r.motion.nframes, p.off);
+        OK(p.astray < 1e-4, "and point where these do (%.2g degrees off)", p.astray);
+        rig_close(&r);
+    }
+    return tap_done();
+}
