@@ -48,11 +48,13 @@ static bool relax_arms(Lane *lane, const LaneWork *work, Take *take, Error *e) {
     return take_relax(take, &w->body, &lane->padding, &lane->arena, e);
 }
 
-/* Hands a mesh to the press; rows share the time of writing it. What goes wrong the tally remembers. */
-static void put(Run *r, Pen *pen, const char *name, int frame, const Mesh *mesh, long long *bytes, StatsRow *row,
-                int nrows) {
-    PressOrder order = {r->settings, r->work->folder, name, frame, r->work->unit, bytes, row, nrows, &r->tally};
+/* Hands a mesh of the run to the press. What goes wrong the tally remembers. */
+static void put(Run *r, Pen *pen, PressOrder order, const Mesh *mesh) {
     Error e = {0};
+    order.settings = r->settings;
+    order.folder = r->work->folder;
+    order.metre = r->work->unit;
+    order.tally = &r->tally;
     if (!press_put(r->work->press, pen, &order, mesh, &e)) return;
 }
 
@@ -77,7 +79,10 @@ static void dress_garment(const Fitting *f, int g, Pen *pen) {
     if (!f->row) return;
     f->row[g].stats = stats;
     r->result->seconds[g] += clock_lap(&since);
-    if (writes) put(r, pen, f->row[g].garment, frame->number, &mesh, &r->result->bytes[g], &f->row[g], 1);
+    if (!writes) return;
+    StatsRow *row = &f->row[g];
+    put(r, pen, (PressOrder){.name = row->garment, .frame = frame->number, .bytes = &r->result->bytes[g], .row = row,
+                             .nrows = 1}, &mesh);
 }
 
 /* All rows share the time for the body. */
@@ -89,7 +94,8 @@ static void put_body(const Fitting *f, Pen *pen) {
     Mesh body = wearer_skin(&f->now->wearer);
     double seconds = clock_lap(&since);
     for (int g = 0; g < n; g++) f->row[g].pose_s += seconds / n;
-    put(r, pen, "body", f->now->frame.number, &body, &r->result->body_bytes, f->row, n);
+    put(r, pen, (PressOrder){.name = "body", .frame = f->now->frame.number, .bytes = &r->result->body_bytes,
+                             .row = f->row, .nrows = n}, &body);
 }
 
 enum { PIECE_POSE, PIECE_BODY, PIECE_GARMENTS };
