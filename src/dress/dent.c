@@ -222,8 +222,10 @@ static double depth_at(const Hollow *h, Vec3 x) {
     for (int k = 0; k < h->n && h->presser[k].depth > depth; k++) {
         const Presser *by = &h->presser[k];
         Vec3 off = vec_sub(x, by->at);
-        double rest = 1 - vec_dot(off, off) / (by->radius * by->radius);
-        if (rest > 0 && rest * rest * by->depth > depth) depth = rest * rest * by->depth;
+        double away2 = vec_dot(off, off), radius2 = by->radius * by->radius;
+        if (away2 >= radius2) continue;
+        double rest = 1 - away2 / radius2;
+        if (rest * rest * by->depth > depth) depth = rest * rest * by->depth;
     }
     return depth;
 }
