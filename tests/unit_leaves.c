@@ -143,6 +143,38 @@ static void leaves_are_the_surface(const char *name) {
     arena_free(&s->arena);
 }
 
+/* A field that is held by another one: near to it everywhere, its own where that is near anyhow. */
+static void field_is_held(void) {
+    const double most = 0.01;
+    Specimen c;
+    Field field, by;
+    specimen_open(&c, "trousers", 4, 2);
+    Scene *s = &c.scene;
+    need(s, field_reserve(&field, &c.lattice, &s->arena, &s->error) &&
+                field_reserve(&by, &c.lattice, &s->arena, &s->error));
+    int n = field.start[LATTICE_LEVELS], level = c.lattice.depth, far = 0, moved = 0, shut = 0;
+    leaves_fill(&c.leaves, 0);
+    for (int k = 0; k < n; k++) {
+        by.displacement[k] = vec_scale(dice_point(), 0.05);
+        field.displacement[k] = vec_mad(by.displacement[k], dice_point(), k % 2 ? 0.002 : 0.05);
+    }
+    field_set_spot(&field.offset, 5, vec(0.03, 0, 0));
+    field_set_spot(&by.offset, 6, vec(0, 0.03, 0));
+    Vec3 kept = field.displacement[1];
+    field_hold(&field, &by, most, &c.leaves);
+    for (int k = 0; k < n; k++) {
+        far += vec_dist(field.displacement[k], by.displacement[k]) > most * (1 + 1e-12);
+        moved += vec_dist(field.displacement[k], by.displacement[k]) > 0;
+    }
+    for (int v = 0; v < c.lattice.level[level].count; v++) shut += !is_open(&c.leaves, level, v);
+    OK(far == 0 && moved == n && shut == 0, "of %d vectors %d are held too loosely, and all cells are split", n, far);
+    OK(vec_dist(field.displacement[1], kept) < 1e-15, "what is near stays");
+    OK(vec_dist(field.offset.at[5], vec(most, 0, 0)) < 1e-12 &&
+           vec_dist(field.offset.at[6], vec(0, 0.03 - most, 0)) < 1e-12,
+       "offsets come and go at the same pace");
+    arena_free(&s->arena);
+}
+
 /* A thigh raised into the skirt: all but the vertices with offsets lie on the leaves. */
 static void mesh_lies_on_leaves(void) {
     enum { MOST = 4096 };
@@ -176,6 +208,7 @@ static void mesh_lies_on_leaves(void) {
 int main(void) {
     leaves_are_the_surface("paper-skirt");
     leaves_are_the_surface("trousers");
+    field_is_held();
     mesh_lies_on_leaves();
     return tap_done();
 }

@@ -37,7 +37,7 @@ MUST_CHECK bool cloth_reserve(Cloth *c, const Fit *fit, const Lattice *lattice, 
    cap. Seconds and pairs are added to *stats, here and below. */
 Outcome attempt_push(Cloth *c, const BodyFrame *body, FrameStats *stats);
 
-/* The same for the global shape itself. */
+/* Leaves the cloth where its field has it. */
 Outcome attempt_rest(Cloth *c, const BodyFrame *body, FrameStats *stats);
 
 /* Is so much left of the parts that the garment is worn over that there is no room for it, however it is pushed? */

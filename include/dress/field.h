@@ -45,6 +45,10 @@ bool field_carry_one(Vec3 *d, const Carry *c);
    seconds), large ones no faster than cloth sinks. What is still felt keeps its cells split. restart: forget it. */
 void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leaves *leaves);
 
+/* Holds every vector, but for dents, at most that far from where another field has it; what is displaced then has its
+   cells split. */
+void field_hold(Field *f, const Field *by, double most, Leaves *leaves);
+
 /* Levels (bit 1 << level) at which anything is displaced. */
 unsigned field_levels(const Field *f);
 

@@ -73,7 +73,7 @@ void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *
 /* Moves a single vertex by so much more; no farther from the global shape than the cap. */
 void push_vertex(Push *p, int vertex, Vec3 by, bool *capped);
 
-/* Instead of solving: leaves the sheet on the global shape. */
+/* Instead of solving: leaves the sheet where the field has it. */
 void push_rest(Push *p, const Sheet *sheet);
 
 /* Fills what the solution amounts to: active, pinched, displacement. */

@@ -128,6 +128,7 @@ Outcome attempt_rest(Cloth *c, const BodyFrame *body, FrameStats *stats) {
     start_push(c);
     push_rest(&c->push, &c->sheet);
     Outcome out = {.wrong = attempt_test(c, body, stats)};
+    push_measure(&c->push, body, &c->sheet, &out.push);
     stats->test_s += clock_lap(&start);
     return out;
 }

@@ -98,6 +98,28 @@ void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leave
     f->pelvis = body->pose.bone[ROLE_PELVIS].r;
 }
 
+static Vec3 held(Vec3 d, Vec3 by, double most) {
+    bool far;
+    return vec_add(by, field_limit(vec_sub(d, by), most, &far));
+}
+
+static void hold_spots(FieldSpots *s, const FieldSpots *by, double most) {
+    for (int k = 0; k < by->n; k++)
+        if (!s->is_listed[by->place[k]]) field_set_spot(s, by->place[k], vec(0, 0, 0));
+    for (int k = 0; k < s->n; k++) s->at[s->place[k]] = held(s->at[s->place[k]], by->at[s->place[k]], most);
+}
+
+void field_hold(Field *f, const Field *by, double most, Leaves *leaves) {
+    const Lattice *l = f->lattice;
+    for (int level = 0; level <= l->depth; level++)
+        for (int v = 0; v < l->level[level].count; v++) {
+            Vec3 *d = &f->displacement[f->start[level] + v];
+            *d = held(*d, by->displacement[f->start[level] + v], most);
+            if (!field_is_zero(*d)) leaves_open(leaves, level, v);
+        }
+    hold_spots(&f->offset, &by->offset, most);
+}
+
 unsigned field_levels(const Field *f) {
     unsigned used = 0;
     for (int level = 0; level <= f->lattice->depth; level++)

@@ -339,7 +339,7 @@ void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *s
 
 void push_rest(Push *p, const Sheet *sheet) {
     p->nsamples = 0;
-    for (int v = 0; v < sheet->nvertices; v++) p->point[v] = p->global[v];
+    find_points(p, sheet);
 }
 
 void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {

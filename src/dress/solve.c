@@ -10,6 +10,8 @@
 static const double FAR = 0.65;     /* of the cap: cloth thrown farther than that, while something was left, is laid */
 static const double CLOSER = 0.6;   /* anew, and stays there if that share of the way does as well */
 static const double THROWN = 2;     /* residuals of cloth at the cap count 1 + this */
+static const double SLOW = 0.25;    /* metres a second on 1.70 m: so fast goes what nothing helps, */
+static const double DEEPER = 0.01;  /* unless the body came that many metres deeper into it */
 /* How far a level is moved against the next finer one: in a tight garment less, so that a place that is pinched
    carries less of its neighbours away; a loose one gives way as a whole. */
 static const double TIGHT = 0.7, LOOSE = 1;
@@ -83,7 +85,25 @@ static bool is_wanting(const Solver *s, const Outcome *o, int attempt) {
     return own > 0 && !attempt_is_hopeless(&s->cloth, o);
 }
 
-static Wrong push_and_test(Solver *s, const BodyFrame *body, FrameStats *stats) {
+/* Where the body leaves a tight garment no room, in every frame another way out is the one that helps most, and cloth
+   would fly to and fro: there it goes slowly, unless that lets the body in deeper. A loose one finds its ways. */
+static void go_slowly(Solver *s, const BodyFrame *body, double dt, Outcome *best, FrameStats *stats) {
+    Cloth *c = &s->cloth;
+    double scale = c->push.field.scale;
+    keep(s);
+    field_hold(&c->push.field, &s->before, SLOW * scale * dt, &c->leaves);
+    lay_sheet(s);
+    Outcome slow = attempt_rest(c, body, stats);
+    if (slow.wrong.own.deepest > best->wrong.own.deepest + DEEPER * scale) {
+        take_back(s, body, stats);
+        return;
+    }
+    slow.push.pinched = best->push.pinched;
+    slow.push.capped = best->push.capped;
+    *best = slow;
+}
+
+static Wrong push_and_test(Solver *s, const BodyFrame *body, double dt, Tie tie, FrameStats *stats) {
     Cloth *c = &s->cloth;
     double cap = c->push.field.cap;
     prepare(s, CARRIED);
@@ -99,6 +119,8 @@ static Wrong push_and_test(Solver *s, const BodyFrame *body, FrameStats *stats) 
         else take_back(s, body, stats);
     }
     c->settler.denter.is_off = false;
+    bool goes_slowly = tie == TIE_GOES_ON && !c->fit->garment->loose && residual_total(&best.wrong.own) > 0;
+    if (goes_slowly) go_slowly(s, body, dt, &best, stats);
     s->is_thrown = is_far(&best, cap) && (s->is_thrown || residual_total(&best.wrong.own) > 0);
     stats->capped |= residual_total(&best.wrong.own) + residual_total(&best.wrong.other) > 0 || best.push.capped;
     stats->active = best.push.active;
@@ -115,6 +137,7 @@ static void carry(Solver *s, const BodyFrame *body, double dt, Tie tie) {
     s->is_astray = tie == TIE_ASTRAY;
     dent_carry(&c->settler.denter, &c->push.field, body, dt, tie == TIE_GOES_ON);
     field_carry(&c->push.field, body, dt, tie != TIE_GOES_ON, &c->leaves);
+    if (tie == TIE_GOES_ON) field_copy(&c->push.field, &s->before);
     Leaves *wanted = s->fixed_topology ? &s->grid : &c->leaves;
     if (!s->is_astray) morph_carry(&c->morph, dt, tie == TIE_AFRESH, wanted, &s->fresh);
 }
@@ -127,6 +150,6 @@ Wrong solver_frame(Solver *s, const BodyFrame *body, const Patch *root, double d
     carry(s, body, dt, is_global ? TIE_AFRESH : tie);
     lay_sheet(s);
     stats->mesh_s = clock_lap(&start);
-    Wrong w = is_global ? attempt_rest(&s->cloth, body, stats).wrong : push_and_test(s, body, stats);
+    Wrong w = is_global ? attempt_rest(&s->cloth, body, stats).wrong : push_and_test(s, body, dt, tie, stats);
     return attempt_raise_flat(&s->cloth, body, w, stats);
 }
