@@ -1,10 +1,10 @@
-/* Hollows that arms, and other parts that come from outside, press into a garment. */
+/* Hollows that arms press into a garment. */
 #ifndef DRESS_DENT_H
 #define DRESS_DENT_H
 
 #include "dress/push.h"
 
-/* A vertex that a limb from outside has in front of it, or behind it. */
+/* A vertex that an arm has to get past. */
 typedef struct {
     Vec3 at;
     double depth, radius; /* how far it is pressed in, and how far about its hollow goes; metres */
@@ -38,8 +38,8 @@ void dent_start(Denter *d);
 /* Begins a round, in which a vertex is taken back once at most. */
 void dent_round(Denter *d);
 
-/* Presses the cloth in that limbs which touch it have in their way, with what is round it; only as far as there is
-   room in front of what it is worn over. */
+/* Presses the cloth in that arms which touch it have to get past, with what is round it; only as far as there is room
+   in front of what it is worn over. */
 void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet);
 
 /* Moves a single vertex by so much more, at most that far from where its hollow is. */

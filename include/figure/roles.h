@@ -21,7 +21,6 @@ Role role_find(const char *name, int length);
 
 /* The limb that a role belongs to: 0 the trunk with neck and head, 1 and 2 the arms (left, right), 3 and 4
    the legs. Roles of a limb follow each other from the trunk outwards. */
-enum { LIMBS = 5 };
 int role_limb(Role role);
 
 /* The same role on the other side; of the trunk itself. */

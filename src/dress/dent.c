@@ -1,27 +1,27 @@
 /* An arm that lies on a skirt, or hangs into it, presses a hollow. In the sweeps it would fight with the legs, for
    displacements that make room for the one take it from the others. So it comes after them, and they win.
 
-   A limb from outside that touches the cloth anywhere presses one way: into the garment, but not along itself, for
-   that would only carry the cloth down the arm. All cloth of that side that would have the limb in its way, or behind
-   it already, goes past it, as far as there is room in front of what it is worn over. Cloth round about goes along,
-   the less the farther away it is; and no step is so steep that it would look like a spike or fold over. All of that
-   changes little where the pose changes little. What still jumps is a limit of the room, so a hollow is pressed deeper
-   at once, but fills with time. */
+   An arm that touches the cloth anywhere presses one way: into the garment, but not along itself, for that would only
+   carry the cloth down the arm. All cloth of that side that has the arm in it, or behind it already, goes past it, as
+   far as there is room in front of what it is worn over. Cloth round about goes along, the less the farther away it is;
+   and no step is so steep that it would look like a spike or fold over. All of that changes little where the pose
+   changes little. What still jumps is where room ends, so a hollow is pressed deeper at once, but fills with time. */
 #include "dress/dent.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+#include "figure/relax.h"
 #include "geometry/boxtree.h"
 
 enum { STEPS_BACK = 24, LEVEL_ROUNDS = 40 };
-static const double MEETS = 0.05;              /* share of the clearance that may be missing where cloth meets a limb */
+static const double MEETS = 0.05;              /* share of the clearance that may be missing where cloth meets an arm */
 static const double WIDE = 0.05, WIDENS = 1.2; /* radius of a hollow: metres on 1.70 m, and this times its depth */
-static const double FACES = 0.5;    /* cosine of cloth to the way of a limb, from which on it is pressed in fully */
+static const double FACES = 0.5;    /* cosine of cloth to the way of an arm, from which on it is pressed in fully */
 static const double STEEP = 2;      /* a hollow's sides: metres inwards per metre of cloth; */
 static const double SHRINKS = 0.8;  /* and where cloth goes towards its neighbour, that share of their distance */
 static const double CHORD = 0.03;   /* share of its depth that a hollow stops short: its facets cut across the round */
-static const double POINTED = 0.3;  /* squared sine between limb and way: below that the limb pokes rather than lies */
+static const double POINTED = 0.3;  /* squared sine between arm and way: below that the arm pokes rather than lies */
 static const double BACK = 0.005;   /* metres on 1.70 m: first step out of a hollow; */
 static const double MOST_BACK = 0.03; /* after so much it is given up */
 
@@ -59,26 +59,29 @@ void dent_round(Denter *d) {
     d->nback = 0;
 }
 
-static int limb_of(const BodyFrame *body, int part) { return role_limb(body->body->part[part].role); }
+/* ARM_LEFT, ARM_RIGHT, or anything else. */
+static int arm_of(const BodyFrame *body, int part) { return role_limb(body->body->part[part].role) - 1; }
 
 /* The way from the global shape of a place into the garment. */
 static Vec3 inwards(const Push *p, int place) {
     return vec_scale(lattice_normal(p->field.lattice, p->escape.root, place), -1);
 }
 
-/* Parts that come from outside to all of a garment. Those that it is worn over elsewhere move it in the sweeps. */
-static unsigned outsiders(const Push *p, const BodyFrame *body) {
+/* Parts of arms that a garment is not worn over, bits 1 << part. Others come from inside, as feet and neck do. */
+static unsigned bare_arms(const Push *p, const BodyFrame *body) {
     unsigned parts = 0;
-    for (int k = 0; k < body->body->nparts; k++)
-        if (!(p->field.lattice->fit->collide & part_bit(body, k))) parts |= 1u << k;
+    for (int k = 0; k < body->body->nparts; k++) {
+        bool is_arm = arm_of(body, k) == ARM_LEFT || arm_of(body, k) == ARM_RIGHT;
+        if (is_arm && !(p->field.lattice->fit->collide & part_bit(body, k))) parts |= 1u << k;
+    }
     return parts;
 }
 
-/* Which limbs touch the cloth, as parts from outside (bits 1 << part), and the way in which each presses (unit). */
+/* Of the arms that touch the cloth: their bare parts (bits 1 << part), and the way in which each presses (unit). */
 typedef struct {
-    unsigned parts[LIMBS];
-    Vec3 way[LIMBS];
-    Box before[LIMBS];      /* what may have them in its way */
+    unsigned parts[ARMS];
+    Vec3 way[ARMS];
+    Box before[ARMS];      /* what may have them in its way */
 } Touch;
 
 /* Adds what a vertex is too near to: the nearer the more its way into the garment counts. */
@@ -91,49 +94,49 @@ static void add_touch(Touch *t, const Push *p, const BodyFrame *body, const Shee
         if (body_frame_far(body, k, p->point[vertex], clearance)) continue;
         double missing = clearance - body_frame_distance(body, k, p->point[vertex], clearance, NULL);
         if (missing <= 0) continue;
-        int limb = limb_of(body, k);
-        t->way[limb] = vec_mad(t->way[limb], inwards(p, place), missing);
-        t->parts[limb] |= 1u << k;
+        int arm = arm_of(body, k);
+        t->way[arm] = vec_mad(t->way[arm], inwards(p, place), missing);
+        t->parts[arm] |= 1u << k;
     }
 }
 
-/* The way of a limb without what leads along its forearm; one that stands straight on the cloth pokes it. */
-static Vec3 across_arm(const BodyFrame *body, int limb, Vec3 way) {
-    static const int forearm[LIMBS] = {-1, ROLE_LEFT_FOREARM, ROLE_RIGHT_FOREARM, -1, -1};
-    int part = forearm[limb] < 0 ? -1 : body->body->of_role[forearm[limb]];
+/* The way of an arm without what leads along it; one that stands straight on the cloth pokes it. */
+static Vec3 across_arm(const BodyFrame *body, int arm, Vec3 way) {
+    static const Role forearm[ARMS] = {ROLE_LEFT_FOREARM, ROLE_RIGHT_FOREARM};
+    int part = body->body->of_role[forearm[arm]];
     if (part < 0) return way;
     Vec3 along = mat_column(body->to_world[part], 1);
     double c = vec_dot(way, along);
     return vec_unit_or(vec_mad(way, along, -c * smoothstep(0, POINTED, 1 - c * c)), way);
 }
 
-/* All of a limb presses where a part of it touches. */
-static void complete(Touch *t, const Push *p, const BodyFrame *body, int limb, unsigned outside) {
+/* All of an arm presses where a part of it touches. */
+static void complete(Touch *t, const Push *p, const BodyFrame *body, int arm, unsigned bare) {
     double clearance = PUSH_MARGIN * p->field.scale;
     Vec3 far = vec(clearance, clearance, clearance);
-    t->way[limb] = across_arm(body, limb, vec_unit_or(t->way[limb], vec(0, 0, 0)));
-    t->before[limb] = box_empty();
-    for (unsigned left = outside; left; left &= left - 1) {
+    t->way[arm] = across_arm(body, arm, vec_unit_or(t->way[arm], vec(0, 0, 0)));
+    t->before[arm] = box_empty();
+    for (unsigned left = bare; left; left &= left - 1) {
         int k = near_first(left);
-        if (limb_of(body, k) != limb) continue;
-        t->parts[limb] |= 1u << k;
+        if (arm_of(body, k) != arm) continue;
+        t->parts[arm] |= 1u << k;
         Vec3 low = vec_sub(body->box[k].low, far), high = vec_add(body->box[k].high, far);
         for (int before = 0; before < 2; before++) {
-            box_add(&t->before[limb], vec_mad(low, t->way[limb], before ? -p->field.cap : 0));
-            box_add(&t->before[limb], vec_mad(high, t->way[limb], before ? -p->field.cap : 0));
+            box_add(&t->before[arm], vec_mad(low, t->way[arm], before ? -p->field.cap : 0));
+            box_add(&t->before[arm], vec_mad(high, t->way[arm], before ? -p->field.cap : 0));
         }
     }
 }
 
 static Touch find_touch(const Push *p, const BodyFrame *body, const Sheet *sheet) {
     Touch t = {.parts = {0}};
-    unsigned outside = outsiders(p, body);
+    unsigned bare = bare_arms(p, body);
     for (int v = 0; v < sheet->nvertices; v++) {
         double slack = near_slack(p->near[v].least, p->clearance[v]);
-        if (slack <= vec_dist(p->point[v], p->near[v].seen)) add_touch(&t, p, body, sheet, v, outside);
+        if (slack <= vec_dist(p->point[v], p->near[v].seen)) add_touch(&t, p, body, sheet, v, bare);
     }
-    for (int limb = 0; limb < LIMBS; limb++)
-        if (t.parts[limb]) complete(&t, p, body, limb, outside);
+    for (int arm = 0; arm < ARMS; arm++)
+        if (t.parts[arm]) complete(&t, p, body, arm, bare);
     return t;
 }
 
@@ -164,17 +167,17 @@ static double way_past(const BodyFrame *body, int part, Vec3 at, Vec3 n, double 
     return 0;
 }
 
-/* How much cloth that faces `inwards` minds a limb that presses along n, 0 to 1: what is on the other side of the
+/* How much cloth that faces `inwards` minds an arm that presses along n, 0 to 1: what is on the other side of the
    garment does not. */
 static double facing(Vec3 inwards, Vec3 n) { return smoothstep(0, FACES, vec_dot(inwards, n)); }
 
-/* Does a limb press a vertex in, with the part that does so the farthest? */
-static bool find_presser(const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, const Touch *t, int limb,
+/* Does an arm press a vertex in, with the part that does so the farthest? */
+static bool find_presser(const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, const Touch *t, int arm,
                          Presser *out) {
     int place = sheet->place[vertex];
     double clearance = PUSH_MARGIN * p->field.scale, depth = 0;
-    Vec3 at = p->point[vertex], n = t->way[limb];
-    for (unsigned left = t->parts[limb]; left; left &= left - 1) {
+    Vec3 at = p->point[vertex], n = t->way[arm];
+    for (unsigned left = t->parts[arm]; left; left &= left - 1) {
         int k = near_first(left);
         if (p->field.lattice->collide[place] & part_bit(body, k)) continue;
         depth = fmax(depth, way_past(body, k, at, n, clearance, p->field.cap));
@@ -191,7 +194,7 @@ static int deepest_first(const void *a, const void *b) {
     return x->vertex - y->vertex;
 }
 
-/* A limb's hollow, without what is left of those of the frame before. */
+/* An arm's hollow, without what is left of those of the frame before. */
 typedef struct {
     Vec3 way;
     const Presser *presser; /* deepest first */
@@ -199,14 +202,14 @@ typedef struct {
     Box reach;
 } Hollow;
 
-/* The pressers of a limb, to follow those that there are. */
+/* The pressers of an arm, to follow those that there are. */
 static Hollow find_hollow(Denter *d, const Push *p, const BodyFrame *body, const Sheet *sheet, const Touch *t,
-                          int limb) {
+                          int arm) {
     Presser *first = d->presser + d->npressers;
-    Hollow h = {.way = t->way[limb], .presser = first, .reach = box_empty()};
+    Hollow h = {.way = t->way[arm], .presser = first, .reach = box_empty()};
     for (int v = 0; v < sheet->nvertices && d->npressers + h.n < d->nplaces; v++) {
-        if (!box_touches(t->before[limb], (Box){p->point[v], p->point[v]})) continue;
-        h.n += find_presser(p, body, sheet, v, t, limb, &first[h.n]);
+        if (!box_touches(t->before[arm], (Box){p->point[v], p->point[v]})) continue;
+        h.n += find_presser(p, body, sheet, v, t, arm, &first[h.n]);
     }
     qsort(first, (size_t)h.n, sizeof *first, deepest_first);
     for (int k = 0; k < h.n; k++) box_add(&h.reach, first[k].at);
@@ -230,7 +233,7 @@ static double depth_at(const Hollow *h, Vec3 x) {
     return depth;
 }
 
-/* How far a vertex is pressed in, and which way, as there is room: by limbs, or from the frame before. */
+/* How far a vertex is pressed in, and which way, as there is room: by arms, or from the frame before. */
 static void find_depth(Denter *d, const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex,
                        const Hollow *hollow, int nhollows) {
     int place = sheet->place[vertex];
@@ -283,13 +286,13 @@ static void set_dent(Push *p, const Sheet *sheet, int vertex, Vec3 dent, bool *c
 }
 
 void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
-    Hollow hollow[LIMBS];
+    Hollow hollow[ARMS];
     int n = 0;
     Touch t = {.parts = {0}};
     if (!d->is_off) t = find_touch(p, body, sheet);
     d->npressers = 0;
-    for (int limb = 0; limb < LIMBS; limb++)
-        if (t.parts[limb]) hollow[n++] = find_hollow(d, p, body, sheet, &t, limb);
+    for (int arm = 0; arm < ARMS; arm++)
+        if (t.parts[arm]) hollow[n++] = find_hollow(d, p, body, sheet, &t, arm);
     bool any = !d->is_off && d->npressers + d->held.n > 0, capped;
     for (int v = 0; v < sheet->nvertices && any; v++) find_depth(d, p, body, sheet, v, hollow, n);
     if (any) level(d, p, sheet);
