@@ -39,8 +39,8 @@ void dent_start(Denter *d);
 void dent_round(Denter *d);
 
 /* Presses the cloth in that arms which touch it have to get past, with what is round it; only as far as there is room
-   in front of what it is worn over. */
-void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet);
+   in front of what it is worn over. *capped becomes true where a cap kept it from going farther. */
+void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet, bool *capped);
 
 /* Moves a single vertex by so much more, at most that far from where its hollow is. */
 void dent_add(const Denter *d, Push *p, const Sheet *sheet, int vertex, Vec3 by, double most, bool *capped);

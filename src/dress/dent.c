@@ -262,8 +262,9 @@ static double step_between(const Denter *d, const Push *p, int deep, int other) 
     return STEEP * towards > SHRINKS * length ? SHRINKS * length * length / towards : STEEP * length;
 }
 
-/* Makes steps in the hollows no larger than that: beside cloth that has no room others stay behind too. */
-static void level(const Denter *d, const Push *p, const Sheet *sheet) {
+/* Makes steps in the hollows no larger than that: beside cloth that has no room others stay behind too. Returns
+   whether all are. */
+static bool level(const Denter *d, const Push *p, const Sheet *sheet) {
     bool moved = true;
     for (int round = 0; round < LEVEL_ROUNDS && moved; round++) {
         moved = false;
@@ -277,6 +278,7 @@ static void level(const Denter *d, const Push *p, const Sheet *sheet) {
             moved = true;
         }
     }
+    return !moved;
 }
 
 static void set_dent(Push *p, const Sheet *sheet, int vertex, Vec3 dent, bool *capped) {
@@ -285,7 +287,7 @@ static void set_dent(Push *p, const Sheet *sheet, int vertex, Vec3 dent, bool *c
     field_set_spot(&p->field.dent, place, dent);
 }
 
-void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
+void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet, bool *capped) {
     Hollow hollow[ARMS];
     int n = 0;
     Touch t = {.parts = {0}};
@@ -293,11 +295,11 @@ void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet) {
     d->npressers = 0;
     for (int arm = 0; arm < ARMS; arm++)
         if (t.parts[arm]) hollow[n++] = find_hollow(d, p, body, sheet, &t, arm);
-    bool any = !d->is_off && d->npressers + d->held.n > 0, capped;
+    bool any = !d->is_off && d->npressers + d->held.n > 0;
     for (int v = 0; v < sheet->nvertices && any; v++) find_depth(d, p, body, sheet, v, hollow, n);
-    if (any) level(d, p, sheet);
+    if (any && !level(d, p, sheet)) *capped = true;
     for (int v = 0; v < sheet->nvertices && any; v++)
-        if (d->depth[v] > 0) set_dent(p, sheet, v, vec_scale(d->way[v], d->depth[v]), &capped);
+        if (d->depth[v] > 0) set_dent(p, sheet, v, vec_scale(d->way[v], d->depth[v]), capped);
     for (int v = 0; v < sheet->nvertices; v++) d->hollow[v] = p->field.dent.at[sheet->place[v]];
 }
 

@@ -86,7 +86,7 @@ static void settle_vertex(const Settler *s, Push *p, const BodyFrame *body, cons
 }
 
 void settle_all(Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, bool *capped) {
-    dent_all(&s->denter, p, body, sheet);
+    dent_all(&s->denter, p, body, sheet, capped);
     for (int v = 0; v < sheet->nvertices; v++) settle_vertex(s, p, body, sheet, v, capped);
 }
 
