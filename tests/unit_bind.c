@@ -3,6 +3,16 @@
 #include "tap.h"
 #include "turns.h"
 
+/* A take with a zero pose that tells, and the same one without. */
+static bool open_both(Rig *told, const char *with, Rig *found, const char *without, const char *who) {
+    return OK(rig_open(told, with, NULL) && rig_open(found, without, NULL), "%s open", who);
+}
+
+static void close_both(Rig *told, Rig *found) {
+    rig_close(told);
+    rig_close(found);
+}
+
 /* Up is up also of those who never stand. The body lies turned by 20 degrees about its own axis. */
 static void test_lying(void) {
     static const struct { const char *file; char up; double face; } cases[] = {
@@ -45,14 +55,13 @@ static void test_toppled(void) {
    human zero pose tells. */
 static void test_crouch(void) {
     Rig told, found;
-    if (!OK(rig_open(&told, "tests/data/figure/crouch_tpose.bvh", NULL) &&
-                rig_open(&found, "tests/data/figure/crouch.bvh", NULL), "crouchers open")) return;
+    if (!open_both(&told, "tests/data/figure/crouch_tpose.bvh",
+                   &found, "tests/data/figure/crouch.bvh", "crouchers")) return;
     OK(turn_difference(&told, &found, ROLE_PELVIS) < 7, "a crouching pelvis turns the same way without a zero pose");
     OK(turn_difference(&told, &found, ROLE_CHEST) < 3, "and the chest");
     OK(turn_difference(&told, &found, ROLE_HEAD) < 13, "and the head");
     OK(foot_difference(&told, &found) < 4, "and the feet point the same way, that never stand flat");
-    rig_close(&told);
-    rig_close(&found);
+    close_both(&told, &found);
 }
 
 /* The same crouch with a first bone of the spine that is short and leads backwards, as to a sacrum. */
@@ -68,19 +77,17 @@ static void test_sacrum(void) {
     fclose(in);
     fclose(out);
     Rig told, found;
-    if (!OK(rig_open(&told, "tests/data/figure/crouch_tpose.bvh", NULL) && rig_open(&found, path, NULL), "it opens"))
-        return;
+    if (!open_both(&told, "tests/data/figure/crouch_tpose.bvh", &found, path, "crouchers with a sacrum")) return;
     double off = turn_difference(&told, &found, ROLE_PELVIS);
     OK(off < 9, "a pelvis with a sacrum turns the same way (%.1f degrees)", off);
-    rig_close(&told);
-    rig_close(&found);
+    close_both(&told, &found);
 }
 
 /* The same crouch with a T-pose in front: that frame tells as much as a human zero pose. */
 static void test_pose_in_front(void) {
     Rig told, found;
-    if (!OK(rig_open(&told, "tests/data/figure/crouch_tpose.bvh", NULL) &&
-                rig_open(&found, "tests/data/figure/crouch_calibrated.bvh", NULL), "calibrated crouchers open")) return;
+    if (!open_both(&told, "tests/data/figure/crouch_tpose.bvh",
+                   &found, "tests/data/figure/crouch_calibrated.bvh", "calibrated crouchers")) return;
     double most = 0;
     for (int frame = 0; frame < told.motion.nframes; frame++) {
         Pose p = rig_pose(&told, frame), q = rig_pose(&found, frame + 1);
@@ -89,8 +96,7 @@ static void test_pose_in_front(void) {
     OK(strcmp(found.figure.rest, "T-pose in frame 1") == 0, "rest: %s", found.figure.rest);
     OK(most < 0.5, "behind a T-pose every bone turns as with a human zero pose (%.2f degrees)", most);
     NEAR(found.figure.height, told.figure.height, 1e-4, "and the stature is the same");
-    rig_close(&told);
-    rig_close(&found);
+    close_both(&told, &found);
 }
 
 /* Writes a motion of a rig again, its head turned about its own x by so many degrees in all frames. */
@@ -119,31 +125,28 @@ static void test_look_aside(void) {
     write_turned_head(&told, ahead, path, 40);
     OK(rig_open(&found, path, NULL), "and with its head turned");
     NEAR(turn_difference(&told, &found, ROLE_HEAD), 40, 2, "a head that is turned aside in all frames is aside");
-    rig_close(&told);
-    rig_close(&found);
+    close_both(&told, &found);
 }
 
 /* Feet lie along the shins of one who kneels, and look back: a moment of standing tells where they point. */
 static void test_kneel(void) {
     Rig told, found;
-    if (!OK(rig_open(&told, "tests/data/figure/kneel_tpose.bvh", NULL) &&
-                rig_open(&found, "tests/data/figure/kneel.bvh", NULL), "kneelers open")) return;
+    if (!open_both(&told, "tests/data/figure/kneel_tpose.bvh",
+                   &found, "tests/data/figure/kneel.bvh", "kneelers")) return;
     double off = foot_difference(&told, &found);
     OK(off < 16, "the feet of one who kneels point the same way without a zero pose (%.1f degrees)", off);
-    rig_close(&told);
-    rig_close(&found);
+    close_both(&told, &found);
 }
 
 /* Feet that stand flat far apart, under shins that slant: the floor tells what is up for them, not the shins. */
 static void test_horse_stance(void) {
     Rig told, found;
-    if (!OK(rig_open(&told, "tests/data/figure/horse_tpose.bvh", NULL) &&
-                rig_open(&found, "tests/data/figure/horse.bvh", NULL), "riders without a horse open")) return;
+    if (!open_both(&told, "tests/data/figure/horse_tpose.bvh",
+                   &found, "tests/data/figure/horse.bvh", "riders without a horse")) return;
     double left = turn_difference(&told, &found, ROLE_LEFT_FOOT);
     double right = turn_difference(&told, &found, ROLE_RIGHT_FOOT);
     OK(fmax(left, right) < 4, "feet under slanting shins lie flat (%.1f and %.1f degrees)", left, right);
-    rig_close(&told);
-    rig_close(&found);
+    close_both(&told, &found);
 }
 
 /* Writes the last n frames of a motion. */
@@ -176,8 +179,7 @@ static void test_only_kneel(void) {
             most = fmax(most, turned(p.bone[foot].r, q.bone[foot].r));
     }
     OK(most < 16, "the feet of one who only kneels lie as they do (%.1f degrees)", most);
-    rig_close(&told);
-    rig_close(&found);
+    close_both(&told, &found);
 }
 
 int main(void) {

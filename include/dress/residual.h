@@ -27,6 +27,13 @@ static inline int tester_hit_vertex(const TesterHit *hit) {
     return hit->v[nearest];
 }
 
+/* Where a hit is, while the cloth's vertices are there. */
+static inline Vec3 tester_hit_point(const TesterHit *hit, const Vec3 *position) {
+    Vec3 x = {0, 0, 0};
+    for (int c = 0; c < hit->n; c++) x = vec_mad(x, position[hit->v[c]], hit->weight[c]);
+    return x;
+}
+
 /* What crosses or lies inside some parts of the body. */
 typedef struct {
     int edges;       /* (body edge, garment triangle) pairs that share a point */

@@ -10,7 +10,7 @@ typedef struct {
     Cloth cloth;             /* set cloth.leaves before solver_frame, which splits them farther */
     Leaves fresh, kept;      /* before anything is carried along; of the best attempt so far */
     Leaves grid;             /* what is tessellated under a fixed topology */
-    Field before;            /* what this frame goes on from; before frames that are astray, */
+    Field before;            /* what this frame goes on from (if tight); before frames that are astray, */
     bool is_astray;          /* as the last one was, that of the last that was not */
     bool is_thrown;          /* a frame has left something and thrown cloth far, where it has stayed since */
 } Solver;

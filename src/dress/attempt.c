@@ -168,9 +168,8 @@ int attempt_pinched(Cloth *c, const BodyFrame *body) {
     for (int k = 0; k < c->tester.nhits; k++) {
         const TesterHit *hit = &c->tester.hit[k];
         int v = tester_hit_vertex(hit);
-        Vec3 x = {0, 0, 0};
         if (c->fit->collide & part_bit(body, hit->part)) continue;
-        for (int i = 0; i < hit->n; i++) x = vec_mad(x, c->position[hit->v[i]], hit->weight[i] / body->unit);
+        Vec3 x = vec_scale(tester_hit_point(hit, c->position), 1 / body->unit);
         unsigned worn = c->push.lattice->collide[c->sheet.place[v]];
         if (is_counted[v] || !has_no_room(body, worn, hit->part, x, 2 * PUSH_MARGIN * c->push.field.scale)) continue;
         is_counted[v] = true;

@@ -53,7 +53,8 @@ void field_forget(Field *f) {
 }
 
 void field_copy(const Field *from, Field *to) {
-    field_forget(to);
+    field_drop_spots(&to->offset);
+    field_drop_spots(&to->dent);
     to->pelvis = from->pelvis;
     memcpy(to->displacement, from->displacement, (size_t)from->start[LATTICE_LEVELS] * sizeof *to->displacement);
     copy_spots(&from->offset, &to->offset);

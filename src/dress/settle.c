@@ -110,16 +110,13 @@ static void move_off(const Settler *s, Push *p, const BodyFrame *body, const She
     bool is_worn = escape_is_own(&p->escape, body, place, hit->part);
     double clearance = (is_worn ? JUST_CLEAR : 1) * PUSH_MARGIN * p->field.scale, norm2 = 0;
     EscapePoint at;
-    Vec3 x = {0, 0, 0}, n;
-    for (int c = 0; c < hit->n; c++) {
-        x = vec_mad(x, p->point[hit->v[c]], hit->weight[c]);
-        norm2 += hit->weight[c] * hit->weight[c];
-    }
+    Vec3 x = tester_hit_point(hit, p->point), n;
     double distance = body_frame_distance(body, hit->part, x, clearance, &n);
     if (distance >= clearance) return; /* another hit has moved it */
     escape_at(&at, place, x, clearance);
     double way = escape_way(&p->escape, body, &at, hit->part, clearance, distance, &n);
     if (way > OFFSET_MAX * p->field.scale) return; /* out of reach */
+    for (int c = 0; c < hit->n; c++) norm2 += hit->weight[c] * hit->weight[c];
     for (int c = 0; c < hit->n; c++) {
         int v = hit->v[c];
         double by = way * hit->weight[c] / norm2;

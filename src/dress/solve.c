@@ -85,8 +85,11 @@ static bool is_wanting(const Solver *s, const Outcome *o, int attempt) {
     return own > 0 && !attempt_is_hopeless(&s->cloth, o);
 }
 
+/* A loose garment finds its ways. */
+static bool may_go_slowly(const Solver *s) { return !s->cloth.fit->garment->loose; }
+
 /* Where the body leaves a tight garment no room, in every frame another way out is the one that helps most, and cloth
-   would fly to and fro: there it goes slowly, unless that lets the body in deeper. A loose one finds its ways. */
+   would fly to and fro: there it goes slowly, unless that lets the body in deeper. */
 static void go_slowly(Solver *s, const BodyFrame *body, double dt, Outcome *best, FrameStats *stats) {
     Cloth *c = &s->cloth;
     double scale = c->push.field.scale;
@@ -119,7 +122,7 @@ static Wrong push_and_test(Solver *s, const BodyFrame *body, double dt, Tie tie,
         else take_back(s, body, stats);
     }
     c->settler.denter.is_off = false;
-    bool goes_slowly = tie == TIE_GOES_ON && !c->fit->garment->loose && residual_total(&best.wrong.own) > 0;
+    bool goes_slowly = tie == TIE_GOES_ON && may_go_slowly(s) && residual_total(&best.wrong.own) > 0;
     if (goes_slowly) go_slowly(s, body, dt, &best, stats);
     s->is_thrown = is_far(&best, cap) && (s->is_thrown || residual_total(&best.wrong.own) > 0);
     stats->capped |= residual_total(&best.wrong.own) + residual_total(&best.wrong.other) > 0 || best.push.capped;
@@ -137,7 +140,7 @@ static void carry(Solver *s, const BodyFrame *body, double dt, Tie tie) {
     s->is_astray = tie == TIE_ASTRAY;
     dent_carry(&c->settler.denter, &c->push.field, body, dt, tie == TIE_GOES_ON);
     field_carry(&c->push.field, body, dt, tie != TIE_GOES_ON, &c->leaves);
-    if (tie == TIE_GOES_ON) field_copy(&c->push.field, &s->before);
+    if (tie == TIE_GOES_ON && may_go_slowly(s)) field_copy(&c->push.field, &s->before);
     Leaves *wanted = s->fixed_topology ? &s->grid : &c->leaves;
     if (!s->is_astray) morph_carry(&c->morph, dt, tie == TIE_AFRESH, wanted, &s->fresh);
 }
