@@ -5,7 +5,7 @@
 #include "figure/rest.h"
 #include "figure/sample.h"
 
-/* Fills bind and bound of a measured figure. */
+/* Fills bind and bound of a figure that figure_measure has filled. */
 void figure_bind(const Skeleton *skeleton, const Sample *sample, const Rest *rest, Figure *f);
 
 #endif

@@ -1,7 +1,7 @@
-/* The body: generalised cones along the bones, as in the paper. Each part is a stack of
-   sections; a section is two half-ellipses (front and back of different depth) that meet at
-   the sides. Skin: bicubic Bezier patches, four quarters round, one row between sections.
-   The analytic inside test uses the same interpolation as the patches.
+/* The body: generalised cones along the bones, as in the paper. Each part is a stack of sections; a section is two
+   half-ellipses (front and back of different depth) that meet at the sides. The skin is made of bicubic Bezier patches:
+   four round each part in every row between two sections. Distances are computed from the same cubics, so that what is
+   drawn and what is tested is one surface.
 
    Part frame: origin at the bone's start, y along the bone from start (at = 0) to end
    (at = 1); for torso, neck and head y is canonical up, x left, z forward. For limbs y points
@@ -24,10 +24,11 @@ typedef struct {
     double front, back;  /* half depths towards +z and -z */
 } Section;
 
-/* SECTIONS_MAX counts the caps, three sections at each end, which a body file does not give. */
+/* Sections of a part at the most: SECTIONS_MAX with the caps, which are CAP_SECTIONS at each end and do not stand in a
+   body file, SPEC_SECTIONS_MAX without. */
 enum { SECTIONS_MAX = 24, CAP_SECTIONS = 3, SPEC_SECTIONS_MAX = SECTIONS_MAX - 2 * CAP_SECTIONS, BODY_PARTS_MAX = 24 };
 
-/* A part as the body file gives it, for the reference figure. */
+/* A part as the body file gives it, for the reference figure: `at` in bone lengths. */
 typedef struct {
     Role role;
     double cap[2]; /* how far the end caps reach past the first and last section; 0: a half ball */
@@ -74,8 +75,8 @@ typedef struct {
     Patch *patch;             /* skin patches, canonical stance */
     double scale;             /* girth of this figure against the reference */
     double height;            /* of the figure */
-    double hips, shoulders;   /* breadths of the trunk against the reference's at this girth */
-    double hip_y, shoulder_y; /* where these hold, canonical stance */
+    double hips, shoulders;   /* breadth of the trunk at hips and shoulders, against the reference's at this girth */
+    double hip_y, shoulder_y; /* heights of hips and shoulders in the canonical stance, metres */
 } Body;
 
 /* Breadth of the trunk at height y of the canonical stance against the reference's at this
@@ -87,40 +88,42 @@ double body_breadth(const Body *b, double y);
    shells, one for each part, no degenerate triangles. Memory from arena. */
 MUST_CHECK bool body_fit(const BodySpec *spec, const Figure *figure, int detail, Arena *arena, Body *out, Error *e);
 
-/* The steps of body_fit. Closes a part whose nsections sections (in metres) are set: adds caps
-   of these heights and fills everything from `section` to `bucket`. */
+/* Steps of body_fit. body_part_close takes a part whose nsections sections (in metres) are set, adds the caps, of these
+   heights in metres, and fills everything from `section` to `bucket`. */
 void body_part_close(BodyPart *part, const double cap[2]);
 
-/* Patches and skin of a body whose parts are closed. */
+/* body_skin makes patches and skin of a body whose parts are closed. */
 MUST_CHECK bool body_skin(Body *body, int detail, Arena *arena, Error *e);
 
 /* Vertices (skin.nvertices) of the skin in a pose, world frame. normals may be NULL. */
 void body_pose(const Body *b, const Pose *pose, Vec3 *positions, Vec3 *normals);
 
-/* Signed distance (metres, negative inside) of point p, in the PART FRAME, from a part's
-   surface, of first order: exact in sign, good near the surface. *normal, if
-   not NULL, gets the outward unit normal in the part frame. Beyond `far` metres it may
-   return any value >= far that is not larger than the true distance, without a normal. */
+/* Signed distance (metres, negative inside) of point p, in the PART FRAME, from a part's surface. It is measured to
+   tangent planes: exact in sign, accurate near the surface. *normal, if not NULL, gets the outward unit normal in the
+   part frame. For a point that is more than `far` metres away it may return any value from far to the true distance,
+   and sets no normal. */
 double body_distance(const BodyPart *part, Vec3 p, double far, Vec3 *normal);
 
-/* What a part says of a point of its frame, for one that is asked more than once: what it takes to answer is found
-   when it is first needed. Start with {.p = p}; the answers of body_look are those of body_distance. */
+/* The same for a point that is asked about more than once: what was computed is kept. Begin with
+   {.p = p}, in the part frame. */
 typedef struct {
     Vec3 p;
-    int looks, interval;        /* 0, 1 or 2; private, as is the rest */
-    double first, distance;
-    Vec3 normal;
+    /* Private: */
+    int looks;       /* tangent planes taken so far, 0 to 2 */
+    int interval;    /* of body_interval */
+    double first;    /* distance from the first plane */
+    double distance; /* from the last plane */
+    Vec3 normal;     /* of that plane */
 } BodyLook;
 double body_look(const BodyPart *part, BodyLook *at, double far, Vec3 *normal);
 
-/* body_distance for n points that *to_part takes to the part frame, `far` where that is less: to the bit, with any
-   vectors. normal may be NULL; beyond `far` it is undefined. Points that stand together are the cheapest. */
+/* body_distance, or `far` where that is less, of n points that *to_part takes to the part frame: the same bits with any
+   vectors. normal may be NULL; for points beyond `far` it is undefined. Fastest for points that are near each other. */
 void body_distances(const BodyPart *part, Vectors vectors, const Rigid *to_part, const Vec3 *p, int n, double far,
                     double *out, Vec3 *normal);
 
-/* Private: the interval between sections that holds y, low <= y <= high: a table look-up and rarely a step or
-   two. The poles have no size, so distances are taken BODY_POLE (metres) inside of them; where a normal leans
-   along y by more than BODY_LEANING, they are taken twice. */
+/* Private: the number i of the interval from section i to i + 1 that holds y, low <= y <= high: a table look-up and
+   rarely a step or two. */
 static inline int body_interval(const BodyPart *part, double y) {
     int b = (int)((y - part->low) * part->buckets_per_metre);
     int i = part->bucket[b < BODY_BUCKETS ? b : BODY_BUCKETS - 1];
@@ -128,6 +131,8 @@ static inline int body_interval(const BodyPart *part, double y) {
     while (i > 0 && part->section[i].at > y) i--; /* a rounding beside a bucket's edge */
     return i;
 }
+/* Private: at the poles (the ends of the caps) sections have no size, so none is taken nearer to them than BODY_POLE
+   metres. Where the unit normal's y is larger than BODY_LEANING, a second tangent plane is taken. */
 #define BODY_POLE 1e-6
 #define BODY_LEANING 0.2
 

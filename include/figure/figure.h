@@ -1,4 +1,5 @@
-/* The canonical human: every skeleton family is translated, once, into the same figure.
+/* The canonical human. Skeletons of every family are translated into it once, at load; whatever comes after knows only
+   this figure.
 
    Canonical frame: metres, Y up, facing +Z, +X is the figure's LEFT, the floor under it is
    y = 0, the hip joints stand at x = +-hip, z = 0. Canonical stance: legs straight down,
@@ -9,7 +10,7 @@
 
 #include "figure/roles.h"
 
-/* A figure has all ROLE_COUNT bones; those that the skeleton lacks follow a neighbour. */
+/* A figure has all ROLE_COUNT bones. Those that the skeleton lacks move with a neighbour. */
 typedef struct {
     double height;             /* stature, metres */
     double unit;               /* metres per file unit */
@@ -20,13 +21,14 @@ typedef struct {
     Vec3 end[ROLE_COUNT];      /* where it ends (the next joint, or the tip) */
     Roles roles;
     const char *rest;          /* how the bind was found, for `inspect`: "T-pose offsets", ... */
-    Rigid bind[ROLE_COUNT];    /* private: canonical -> joint frame (metres), for bones that turn with a joint */
-    bool bound[ROLE_COUNT];    /* private: those bones */
-    int toward[ROLE_COUNT];    /* private: joint or end site that the bone points to; -1 = it follows its parent */
-    double arms_out, legs_out; /* private: metres that limbs stand farther out than the joints, where these are odd */
+    /* Private, for the rooms of src/figure: */
+    Rigid bind[ROLE_COUNT];    /* canonical stance -> frame of the joint (metres), for bones that are rigid with one */
+    bool bound[ROLE_COUNT];    /* which bones these are */
+    int toward[ROLE_COUNT];    /* joint or end site that the bone points to; -1 = none, it moves with its parent */
+    double arms_out, legs_out; /* metres that limbs stand farther out than their joints, which are too narrow or wide */
 } Figure;
 
-/* Rigid transforms canonical stance -> world (metres, Y up), one for each role bone. */
+/* Rigid transforms canonical stance -> world (metres, Y up), one for each bone. */
 typedef struct { Rigid bone[ROLE_COUNT]; } Pose;
 
 /* Zero is the default. */
@@ -40,7 +42,7 @@ typedef struct {
 #define FIGURE_STATURE 1.70
 Figure figure_reference(void);
 
-/* Lengths that are told for the reference adult are multiplied by this for somebody of that stature. */
+/* The factor for lengths that are given for the reference adult, for somebody of that stature (metres). */
 static inline double figure_scale(double height) { return height / FIGURE_STATURE; }
 
 /* Builds the figure of a motion: unit, up axis, bone lengths and bind, from a sample of its
@@ -48,17 +50,17 @@ static inline double figure_scale(double height) { return height / FIGURE_STATUR
 MUST_CHECK bool figure_build(const Motion *m, const Roles *roles, const FigureOptions *options, Arena *scratch,
                              Notes *notes, Figure *out, Error *e);
 
-/* The pose for the joints' world transforms (file units) of one frame. Limbs turn by the smallest
-   rotation from their parent's frame (no twist), and a thigh about its axis until its side lies where
-   the hips have theirs and a bent knee behind it; pelvis, chest, head and feet follow their joints;
-   the spine stands half-way between pelvis and chest. */
+/* The pose for the joints' world transforms (file units) of one frame. Pelvis, chest, head and feet are rigid with
+   their joints. The spine is half-way between pelvis and chest. A limb bone turns from its parent by the smallest
+   rotation that points it to the next joint; a thigh also turns about its own axis, so that its left is the pelvis's
+   left and a bent knee bends backwards. */
 void figure_pose(const Figure *f, const Rigid *world, Pose *out);
 
 /* The pose in which every bone is where it stands in the canonical stance. */
 Pose figure_rest_pose(void);
 
-/* How far two poses are apart: the longest way of a bone end, in heights. Used to find T-pose first frames and
-   teleports. */
+/* How far two poses are apart: the largest distance between the two places of a bone's end, in statures. Finds T-pose
+   first frames and teleports. */
 double figure_step(const Figure *f, const Pose *a, const Pose *b);
 
 #endif

@@ -18,27 +18,34 @@ typedef struct {
     bool found;
 } Limb;
 
-/* Two limbs that leave the same joint. */
+/* Two limbs of a kind that leave the trunk together. */
 typedef struct {
     LimbKind kind;
-    int hub;           /* their nearest common ancestor */
+    int hub;           /* the joint where they meet: their nearest common ancestor */
     Limb limb[2];
     double score;
 } LimbPair;
 
-/* A skeleton prepared for searching. */
+/* Legs and arms that may belong to one human. */
+typedef struct { const LimbPair *legs, *arms; } Limbs;
+
+/* A skeleton prepared for searching: lengths are means over the sample, file units. */
 typedef struct {
     const Skeleton *skeleton;
     const Sample *sample;
     NameHint *hint;
     int *child, *sibling;  /* first child, next sibling; -1 = none */
-    double *bone, *reach;  /* distance to the parent; longest way down from here */
+    double *bone, *reach;  /* distance to the parent; length of the longest chain below */
 } Tree;
 
 MUST_CHECK bool tree_build(const Skeleton *skeleton, const Sample *sample, Arena *arena, Tree *out, Error *e);
 
 /* Is `joint` below `ancestor` or the same? */
 bool tree_below(const Tree *t, int joint, int ancestor);
+
+/* Rigs may put a helper node where a bone's parent is and give it the bone's name. Returns the joint below such nodes
+   that is the bone itself; `joint` where it is no such node. */
+int tree_past_nodes(const Tree *t, int joint, Part part);
 
 /* The best `most` pairs of a kind, best first. Returns their number. */
 int limbs_find(const Tree *t, LimbKind kind, int most, LimbPair *out);

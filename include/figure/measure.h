@@ -5,12 +5,12 @@
 #include "figure/rest.h"
 #include "figure/sample.h"
 
-/* Fills everything of the figure but bind and bound; *rest is what the zero pose was found to be. */
+/* Fills everything of the figure but bind and bound. *rest: the rest pose, if there is one. */
 MUST_CHECK bool figure_measure(const Motion *m, const FigureOptions *options, const Sample *sample, Rest *rest,
                                Notes *notes, Figure *f, Error *e);
 
-/* Sets the canonical stance: the reference adult, made k times as large, with the given
-   lengths in metres. ankle: its height over the sole. */
+/* Sets the canonical stance: the reference adult made k times as large, but with the given lengths (metres). hips and
+   shoulders: distance between the joints; torso: from hip line to shoulder line; ankle: its height over the sole. */
 typedef struct { double hips, thigh, shin, ankle, torso, shoulders, upper_arm, forearm, hand; } Lengths;
 void figure_shape(double k, const Lengths *lengths, Figure *f);
 

@@ -14,7 +14,7 @@ typedef enum {
 typedef struct {
     int side;                  /* +1 left, -1 right, 0 the name does not say */
     double weight[PART_COUNT]; /* 0 = says nothing, 1 = names that bone and nothing else */
-    bool stranger;             /* names something else: a wing, a skirt, a camera */
+    bool stranger;             /* names something that is no bone: a wing, a skirt, a camera */
 } NameHint;
 
 /* Reads LeftUpLeg, lThigh, thigh_l, thigh.L.001, "Bip01 L Thigh", mixamorig:LeftUpLeg,

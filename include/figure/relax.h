@@ -1,16 +1,16 @@
-/* Arms that hang so close to the trunk that no cloth fits between: how far they have to be turned
-   outwards to make room. Changes the motion, so only who asks for it gets it. */
+/* Arms that hang so close to the trunk that no cloth fits between: by how much they must be turned outwards to make
+   room. That changes the motion, so it is done only on request. */
 #ifndef FIGURE_RELAX_H
 #define FIGURE_RELAX_H
 
 #include "figure/body.h"
 
-/* How far garments stand off each part of the body, metres, where arm and trunk would touch and in front:
-   at places spread evenly from the part's low end to its high end. 0: bare there. Clear with {0}. */
+/* How far garments stand off each part of the body, in metres, at places spread evenly from the part's low end to its
+   high end: at the side, where arm and trunk would touch, and in front. 0: bare there. Clear with {0}. */
 enum { PADDING_PLACES = 12 };
 typedef struct {
     double side[ROLE_COUNT][PADDING_PLACES], front[ROLE_COUNT][PADDING_PLACES];
-    bool is_tube; /* some of it goes round both legs, and hangs between them too */
+    bool is_tube; /* some cloth goes round both legs at once, as a skirt's */
 } Padding;
 
 /* Degrees by which an arm is turned: the whole arm about the shoulder, out to the side and forwards,

@@ -5,11 +5,11 @@
 #include "figure/rest.h"
 #include "figure/sample.h"
 
-/* 'x', 'y' or 'z', upper case where the negative axis is up. Uses roles and toward. seconds: length of
-   the take. */
+/* The up axis: 'x', 'y' or 'z', upper case where the negative axis is up. Uses roles and toward of the figure.
+   seconds: length of the take. */
 char upright_find(const Sample *s, const Figure *f, const Rest *rest, double seconds, Notes *notes);
 
-/* The turn by a right angle (or two) that takes that axis to +y. */
+/* The rotation by one or two right angles that takes that axis to +y. */
 Mat3 upright_turn(char up);
 
 #endif

@@ -1,7 +1,6 @@
-/* One part of the body: a generalised cone. The one idea: everything about its surface is a
-   function of y. Five piecewise cubics give the centre and the half sizes of the section at y;
-   the skin patches are the same cubics in Bezier form, and the inside test evaluates the same
-   cubics, so that what is drawn, tested and pushed against is one surface. */
+/* One part of the body: a generalised cone. Its surface is given by five functions of y alone, piecewise cubics: the
+   centre and the half sizes of the section at y. The skin patches are the same cubics in Bezier form, and distances are
+   computed from the same cubics, so that what is drawn, tested and pushed against is one surface. */
 #include "figure/body.h"
 
 #include <string.h>
@@ -124,16 +123,16 @@ Section body_section(const BodyPart *part, double at) {
     return s;
 }
 
-/* body_interval, where `last` is likely to be it: then nobody waits for the table. */
+/* body_interval(y), where the answer is likely to be `last`: then the processor need not wait for the table. */
 static inline int interval_again(const BodyPart *part, double y, int last) {
     bool is_in = part->section[last].at <= y && y < part->section[last + 1].at;
     return is_in ? last : body_interval(part, y);
 }
 
-/* The surface is where f = 1, f being the distance from the section's centre in units of the
-   half axes. Takes the surface point at the height of `at`, in the direction of `at`; returns
-   how far p stands before the tangent plane there, and the plane's unit normal. For p == at
-   the sign is that of f - 1, so it is exact. *interval: where to look first, and where it was. */
+/* The surface is where f = 1, f being the distance from the section's centre in units of the half axes. Takes the point
+   of the surface at the height of `at`, in the direction of `at` from the centre; returns the signed distance of p from
+   the tangent plane there, and the plane's unit normal. For p == at the sign is that of f - 1, so it is exact.
+   *interval: the interval to try first (-1: none); becomes the one of `at`. */
 static inline double before_plane(const BodyPart *part, Vec3 at, Vec3 p, int *interval, Vec3 *normal) {
     double v[SHAPE_VALUES], d[SHAPE_VALUES], y = clamp(at.y, part->low + BODY_POLE, part->high - BODY_POLE);
     *interval = *interval < 0 ? body_interval(part, y) : interval_again(part, y, *interval);
@@ -158,9 +157,9 @@ static inline double before_plane(const BodyPart *part, Vec3 at, Vec3 p, int *in
     return vec_dot(vec_sub(p, surface), *normal);
 }
 
-/* Where the surface leans (caps, calf, seat) the nearest point is not at the same height: a
-   second plane is taken under the first one's foot. For a convex part both planes bound the
-   distance from below. */
+/* Where the surface leans (caps, calf, seat) the nearest point is not at the same height as p. So a second tangent
+   plane is taken where the perpendicular on the first one ends. For a convex part both planes bound the distance
+   from below. */
 static void look_again(const BodyPart *part, BodyLook *at) {
     Vec3 other;
     at->distance = at->first;

@@ -1,7 +1,6 @@
-/* From the reference adult to any figure. The one idea: lengths follow the bones, girths follow
-   the whole figure. A long shin is a long shin, not a thick one; only a small share of a limb's
-   own proportion goes into its girth, and everything is bounded, so that a skeleton with odd
-   joints still carries a human body. */
+/* From the reference adult to any figure: lengths follow the bones, girths follow the whole figure. A long shin is
+   not a thick one; only a small share of a limb's own proportion goes into its girth. Everything is bounded, so that
+   a skeleton with odd joints still carries a human body. */
 #include "figure/body.h"
 
 #include <string.h>
@@ -51,7 +50,7 @@ static double extent(const Figure *f, Role role) {
     return vec_dot(vec_sub(f->end[role], f->start[role]), mat_column(frame.r, 1));
 }
 
-/* The share of a limb's own proportion that goes into its girth. */
+/* The factor for the girths of some bones: that of the height, and a share of the bones' own proportion. */
 static double girth_of(const Sizes *s, Build build) {
     double own = 0, reference = 0;
     for (int r = 0; r < ROLE_COUNT; r++) {

@@ -1,9 +1,9 @@
-/* body_distance for many points: sixteen stand side by side and every step is a loop over them without a branch,
-   so that the compiler makes vectors of it, as wide as the processor has them. Every sum and root is taken in the
-   order of body_distance: which of the two was asked changes no bit.
+/* body_distance for many points. Sixteen points stand side by side, and every step is a loop over them without a
+   branch, which the compiler turns into SIMD code. Every sum and root is taken in the order of body_distance, so
+   that both give the same bits.
 
-   Of points that stand near a part many are yet too far away, and few need a second look. What is left after each
-   step queues up until sixteen can take the next one together. */
+   There are three steps: is the point near at all; the first tangent plane; a second one where the surface leans.
+   Fewer points need each next step, so they wait in a queue until sixteen can take it together. */
 #include "figure/body.h"
 
 enum { LANES = 16 };
@@ -39,7 +39,7 @@ ALWAYS void bring(const Asked *asked, const int *of, int n, Lanes *out) {
     }
 }
 
-/* Lanes that body_distance does not give up at once. */
+/* near[i]: may lane i be nearer than `far`? Returns whether any lane may. */
 ALWAYS int find_near(const BodyPart *part, const Lanes *p, double far, int near[LANES]) {
     double limit = part->reach + far;
     int any = 0;
@@ -67,7 +67,7 @@ ALWAYS void shapes_in(const BodyPart *part, int s, const double y[LANES], double
     }
 }
 
-/* The same for those that reach so high. */
+/* The same, but only for lanes whose y is in this interval or above; the others keep what they have. */
 ALWAYS void shapes_from(const BodyPart *part, int s, const double y[LANES], double v[SHAPE_VALUES][LANES],
                         double d[SHAPE_VALUES][LANES]) {
     double at = part->section[s].at;
@@ -83,8 +83,8 @@ ALWAYS void shapes_from(const BodyPart *part, int s, const double y[LANES], doub
     }
 }
 
-/* Points that stand together lie in few intervals: each of these is evaluated for all, and kept by those that reach
-   it. */
+/* Points that are near each other lie in few intervals. Each of these is evaluated for all lanes, from the lowest
+   up, and kept by the lanes that are in it or above. */
 ALWAYS void shapes_at(const BodyPart *part, const double y[LANES], double v[SHAPE_VALUES][LANES],
                       double d[SHAPE_VALUES][LANES]) {
     double least = y[0], most = y[0];
@@ -128,15 +128,16 @@ ALWAYS void before_planes(const BodyPart *part, const Lanes *at, const Lanes *p,
     }
 }
 
-/* Points that wait for a step: never more than fifteen are left when the next sixteen come. */
+/* Points that wait for a step: at most fifteen when the next sixteen come. */
 typedef struct { int n, of[2 * LANES]; } Queue;
 
+/* Removes the first sixteen. */
 static void advance(Queue *q) {
     for (int i = LANES; i < q->n; i++) q->of[i - LANES] = q->of[i];
     q->n = q->n > LANES ? q->n - LANES : 0;
 }
 
-/* The points from `first` on that are near. */
+/* Queues the points first..first+n-1 that are near. */
 ALWAYS void find(const Asked *asked, int first, int n, Queue *queue) {
     int of[LANES], near[LANES];
     Lanes p;
@@ -149,7 +150,7 @@ ALWAYS void find(const Asked *asked, int first, int n, Queue *queue) {
     }
 }
 
-/* What the first look has found where the surface leans. */
+/* Points that wait for the second plane, and what the first one told of them. */
 typedef struct {
     Queue queue;
     double distance[2 * LANES];
@@ -161,7 +162,7 @@ ALWAYS void answer(const Asked *asked, int of, double distance, Vec3 normal) {
     if (asked->normal) asked->normal[of] = normal;
 }
 
-/* All are answered, and those that lean queue up for another answer. */
+/* The first plane: answers the first sixteen of the queue, and queues those where the surface leans. */
 ALWAYS void look(const Asked *asked, Queue *queue, Leaning *leaning) {
     Lanes p, n;
     double distance[LANES];
@@ -180,7 +181,7 @@ ALWAYS void look(const Asked *asked, Queue *queue, Leaning *leaning) {
     advance(queue);
 }
 
-/* From the foot of the first distance again. */
+/* The second plane, where the perpendicular on the first one ends. */
 ALWAYS void look_again(const Asked *asked, Leaning *leaning) {
     Lanes p, foot, n;
     double better[LANES];

@@ -1,19 +1,18 @@
-/* A figure in motion. Pelvis, chest, head and feet are rigid with their joints (bind.c finds
-   how they sit on them), so they lean and turn as the performer did. Limbs do not: the twist
-   of a joint means something else in every rig, so a limb bone takes the smallest turn from
-   its parent that points it the right way, and starts where its joint is. Only a thigh turns
-   about itself too: with the hips and the plane in which its knee bends, which mean the same
-   in all. */
+/* A figure in motion. Pelvis, chest, head and feet are rigid with their joints (bind.c finds how they sit on them), so
+   they lean and turn as the performer did. Limb bones are not: the rotation of a limb's joint about its bone means
+   something else in every rig. So a limb bone takes only its direction and its start from the joints, and turns by the
+   smallest rotation from its parent. A thigh also turns about its own axis, with the hips and with the plane in which
+   its knee bends: joint positions tell these in every rig. */
 #include "figure/figure.h"
 
 #include "figure/bind.h"
 #include "figure/measure.h"
 
-/* A bone may start this far (in heights) from its parent's end: joints whose distance varies
-   do not tear the body apart. */
+/* A bone may start this far (in statures) from its parent's end, so that joints whose distance varies do not tear the
+   body apart. */
 static const double GAP = 0.05;
-/* A direction shorter than this (in bone lengths) says nothing. */
-static const double POINTS = 0.15;
+/* A way to the next joint that is shorter than this (in bone lengths) tells no direction. */
+static const double SHORT = 0.15;
 
 bool figure_build(const Motion *m, const Roles *roles, const FigureOptions *options, Arena *scratch, Notes *notes,
                   Figure *out, Error *e) {
@@ -53,30 +52,30 @@ static Vec3 not_far(const Poser *p, Vec3 from, Vec3 to) {
     return vec_lerp(from, to, size > most ? most / size : 1);
 }
 
-/* How far a limb bone stands off its joint: sideways, with the trunk. */
+/* From a limb's joint to where its bone begins: sideways, in the axes of the trunk (see arms_out in figure.h). */
 static Vec3 aside(const Poser *p, Role role) {
     bool leg = role >= ROLE_LEFT_THIGH, right = leg ? role >= ROLE_RIGHT_THIGH : role >= ROLE_RIGHT_CLAVICLE;
     double out = leg ? p->f->legs_out : p->f->arms_out;
     return vec_scale(mat_column(p->pose->bone[leg ? ROLE_PELVIS : ROLE_CHEST].r, 0), right ? -out : out);
 }
 
-/* Where a limb bone begins: at its joint, within GAP of where `parent` says. */
+/* Where a limb bone begins: at its joint, but within GAP of where its parent bone ends. */
 static Vec3 start_of(const Poser *p, Role role, Role parent) {
     Vec3 expected = rigid_apply(p->pose->bone[parent], p->f->start[role]);
     int joint = p->f->roles.joint[role];
     return joint < 0 ? expected : not_far(p, expected, vec_add(point(p, joint), aside(p, role)));
 }
 
-/* `r`, turned by the smallest turn that makes the bone point along `now`. */
+/* The rotation `r` of a bone, followed by the smallest rotation that points the bone along `now`. */
 static Mat3 point_along(const Figure *f, Role role, Mat3 r, Vec3 now) {
     Vec3 bone = vec_sub(f->end[role], f->start[role]);
     double length = vec_len(bone);
-    if (vec_len(now) <= POINTS * length || length == 0) return r;
+    if (vec_len(now) <= SHORT * length || length == 0) return r;
     Vec3 rest = mat_apply(r, vec_scale(bone, 1 / length));
     return mat_mul(mat_between(rest, vec_unit_or(now, rest)), r);
 }
 
-/* A limb bone: starts where it begins, turned from `parent` towards the next joint. */
+/* A limb bone that begins where bone `begin` ends and turns from the rotation of `parent` towards the next joint. */
 static void pose_limb_bone(const Poser *p, Role role, Role begin, Role parent) {
     const Figure *f = p->f;
     Vec3 start = start_of(p, role, begin);
@@ -86,6 +85,7 @@ static void pose_limb_bone(const Poser *p, Role role, Role begin, Role parent) {
     p->pose->bone[role] = placed(r, f->start[role], start);
 }
 
+/* The rotation of a bone that is rigid with its joint. */
 static Mat3 bound_turn(const Poser *p, Role role) {
     return mat_mul(joint_in_world(p, p->f->roles.joint[role]).r, p->f->bind[role].r);
 }
@@ -132,18 +132,20 @@ static void pose_arm(const Poser *p, Role clavicle) {
     pose_limb_bone(p, hand, forearm, forearm);
 }
 
-/* Turns a bone about its own length: a part `share` of the turn that takes `from` to `to`, both across it. */
+/* Turns a bone about its axis by `share` of the angle from `from` to `to`, both perpendicular to the axis. */
 static void twist(const Figure *f, Role role, Vec3 axis, Vec3 from, Vec3 to, double share, Rigid *bone) {
     double turn = atan2(vec_dot(vec_cross(from, to), axis), vec_dot(from, to));
     Mat3 r = mat_mul(mat_axis_angle(axis, share * turn), bone->r);
     *bone = placed(r, f->start[role], rigid_apply(*bone, f->start[role]));
 }
 
+/* The part of v that is perpendicular to a unit axis. */
 static Vec3 across(Vec3 v, Vec3 axis) { return vec_mad(v, axis, -vec_dot(v, axis)); }
 
-/* The smallest turn from the pelvis twists a thigh that is lifted to the chest. So its side is kept to the pelvis's
-   side, as far as it does not point there itself; and the more the knee is bent, the more surely the shin says where
-   the thigh's back is. A knee that is bent little says little: in a stride it would turn the thigh to and fro. */
+/* The smallest rotation from the pelvis twists a thigh that is lifted to the chest. So the thigh is turned about its
+   axis: first until its left is the pelvis's left, unless it points sideways itself; then until its back is where the
+   shin goes, the more so the more the knee is bent. A knee that is bent little would turn the thigh to and fro in a
+   stride. */
 static void twist_thigh(const Poser *p, Role thigh) {
     static const double ASTRIDE = 0.5, SPLIT = 0.95; /* cosine between thigh and hip line */
     static const double STRAIGHT = 40 * PI / 180, BENT = 90 * PI / 180;

@@ -1,28 +1,36 @@
-/* Legs and arms are what makes a skeleton human: two chains of two long bones that leave one
-   joint and mirror each other in length. Every way to lay such a chain into the tree gets
-   points: for names that say so, for two bones of like length, for covering most of the way
-   to the tip. Names weigh most, so they settle what they know; shape decides the rest, so a
-   skeleton with meaningless names is found by the same search. */
+/* Legs and arms are what makes a skeleton human: two chains of two long bones that leave one joint and mirror each
+   other in length. Every choice of three joints along a chain that could be a limb gets points: for names that say so,
+   for two bones of like length, for covering most of the chain. Names weigh most, so they settle what they know; shape
+   decides the rest, so a skeleton with meaningless names is found by the same search. */
 #include "figure/limbs.h"
 
 #include <string.h>
 
 enum {
-    DEPTH_MAX = 12,    /* joints of a chain that are looked at: split arms reach the wrist at the eighth */
+    DEPTH_MAX = 12,    /* joints of a chain that are looked at: arms of split bones reach the wrist at the eighth */
     START_MAX = 5,     /* a limb begins at most so many joints below the hub */
     CHILDREN_MAX = 12, /* children of a hub that are tried */
 };
 
-/* Points. A fully named pair gets about 50, a well shaped one about 10 more. */
-static const double LONG_BONE_NAMED = 10, END_NAMED = 6, CLAVICLE_NAMED = 4, SIDES_NAMED = 5, NO_LIMB_NAMED = 20;
-static const double COVERAGE = 8, UNEVEN = 4, SKIPPED = 0.4, FORKED = 2, BENT = 20, FAR_START = 4;
-static const double NO_END_JOINT = 1, COINCIDES = 0.5, MIRROR = 8;
+/* Points. A fully named pair gets about 50, a well shaped one about 10 more. Won by names, times their weights: */
+static const double LONG_BONE_NAMED = 10, END_NAMED = 6, CLAVICLE_NAMED = 4, SIDES_NAMED = 5;
+static const double NO_LIMB_NAMED = 20; /* lost by a name of another part of the body, or of no body at all */
+static const double SAME_SIDE = 20;     /* lost by two limbs of the same side */
+/* By shape: won by a limb that covers the whole chain; lost, for bones of uneven lengths, for each joint that is jumped
+   over, for each of them where the chain forks, for one that bends, for a limb that starts far from the hub, for an end
+   that is an end site, for an end that coincides with the joint before it, for two limbs of unlike lengths. */
+static const double COVERAGE = 8;
+static const double UNEVEN = 4, SKIPPED = 0.4, FORKED = 2, BENT = 20, FAR_START = 4, NO_END_JOINT = 1;
+static const double COINCIDES = 0.5, MIRROR = 8;
 
-/* ln(upper / lower bone): leg 0.415 m / 0.39 m, arm 0.28 / 0.25 in the reference figure. */
+/* For legs and arms. The usual ln(upper bone / lower bone): 0.415 m / 0.39 m, 0.28 / 0.25 in the reference figure. */
 static const double EVEN[2] = {0.06, 0.11};
-/* The two long bones' share of the way from the limb's first joint to its tip; more than this
-   is no merit. */
+/* The share of the two long bones in the whole chain that counts as covering it. */
 static const double SHARE[2] = {0.75, 0.58};
+/* Shares of the chain, or of the other bone, that a limb has at least. */
+static const double BOTH_LEAST = 0.1, SHORTER_LEAST = 0.2;
+/* A joint this near to the one before it (against chain or limb) coincides with it. */
+static const double NO_WAY = 0.02;
 
 bool tree_build(const Skeleton *skeleton, const Sample *sample, Arena *arena, Tree *out, Error *e) {
     int n = skeleton->njoints;
@@ -45,15 +53,28 @@ bool tree_build(const Skeleton *skeleton, const Sample *sample, Arena *arena, Tr
 
 bool tree_below(const Tree *t, int joint, int ancestor) { return skeleton_below(t->skeleton, joint, ancestor); }
 
-/* A way from a child of the hub downwards. */
+int tree_past_nodes(const Tree *t, int joint, Part part) {
+    static const double AT_PARENT = 0.02; /* distance to the parent against the chain below */
+    for (int next = joint; next >= 0;) {
+        joint = next;
+        next = -1;
+        if (t->bone[joint] > AT_PARENT * t->reach[joint]) break;
+        for (int c = t->child[joint]; c >= 0; c = t->sibling[c])
+            if (t->hint[c].weight[part] > 0 && t->hint[c].weight[part] >= t->hint[joint].weight[part]) next = c;
+    }
+    return joint;
+}
+
+/* A chain of joints from a child of the hub downwards. */
 typedef struct {
     int count, joint[DEPTH_MAX];
-    double along[DEPTH_MAX]; /* distance from the hub along the way */
+    double along[DEPTH_MAX]; /* distance from the hub along the chain */
 } Way;
 
-/* Does the name say that this is no limb: a bone of the trunk, neck or head, or of no body at all? */
+/* How surely the name says that this is no limb: a bone of the trunk, neck or head, or of no body at all. */
 static double of_no_limb(const Tree *t, int joint) {
-    double most = t->hint[joint].stranger ? 0.4 : 0;
+    static const double STRANGER = 0.4;
+    double most = t->hint[joint].stranger ? STRANGER : 0;
     for (int part = PART_PELVIS; part <= PART_HEAD; part++) most = fmax(most, t->hint[joint].weight[part]);
     return most;
 }
@@ -65,43 +86,46 @@ static double name_points(const Tree *t, LimbKind kind, const int joint[3]) {
            NO_LIMB_NAMED * (of_no_limb(t, joint[0]) + of_no_limb(t, joint[1]));
 }
 
-/* The joint before the upper arm that looks most like a clavicle; *points for its name. */
+/* The joint before the upper arm that looks most like a clavicle: by name, and without names the first from which it is
+   still some way to the shoulder. *points: won by its name. */
 static int find_clavicle(const Tree *t, const Way *w, int start, double *points) {
+    static const double SOME_WAY = 0.3, BONE = 0.1; /* of the way from the hub; weight against that of a name */
     int best = -1;
     double most = -1;
     for (int i = 0; i < start; i++) {
-        double weight = t->hint[w->joint[i]].weight[PART_CLAVICLE];
-        /* Without names: the first joint from which it is still some way to the shoulder. */
-        bool bone = w->along[start] - w->along[i] > 0.3 * w->along[start];
-        if (weight + (bone ? 0.1 : 0) > most + 1e-9) most = weight + (bone ? 0.1 : 0), best = i;
+        bool bone = w->along[start] - w->along[i] > SOME_WAY * w->along[start];
+        double weight = t->hint[w->joint[i]].weight[PART_CLAVICLE] + (bone ? BONE : 0);
+        if (weight > most + 1e-9) most = weight, best = i;
     }
     *points = best >= 0 ? CLAVICLE_NAMED * t->hint[w->joint[best]].weight[PART_CLAVICLE] : 0;
     return best >= 0 ? w->joint[best] : -1;
 }
 
-/* Do chains part here? Two that leave through the same point part only there. */
+/* Do chains leave this joint in different directions? Children in the same place count as one: if their chains part,
+   they part there. */
 static bool forks(const Tree *t, int joint) {
+    static const double SAME_PLACE = 0.1; /* of the bone to the child */
     int first = -1;
     for (int c = t->child[joint]; c >= 0; c = t->sibling[c]) {
         if (t->skeleton->joint[c].is_end || !(t->reach[c] > 0)) continue;
-        if (first >= 0 && sample_distance(t->sample, first, c) > 0.1 * t->bone[c]) return true;
+        if (first >= 0 && sample_distance(t->sample, first, c) > SAME_PLACE * t->bone[c]) return true;
         first = c;
     }
     return false;
 }
 
-/* A split bone (upper_arm, upper_arm.001) may be jumped over; it stays straight all the time and
-   nothing branches off. chord: mean distance of the two places. */
+/* Points of a bone that jumps over joints between places `from` and `to` of the chain. Rigs split bones (upper_arm,
+   upper_arm.001); such a bone is always straight and nothing branches off. chord: mean distance of the two places. */
 static double skip_points(const Tree *t, const Way *w, int from, int to, double chord) {
     double path = w->along[to] - w->along[from], points = 0;
     for (int i = from + 1; i < to; i++) {
-        if (w->along[i + 1] - w->along[i] > 0.02 * w->along[w->count - 1]) points -= SKIPPED;
+        if (w->along[i + 1] - w->along[i] > NO_WAY * w->along[w->count - 1]) points -= SKIPPED;
         if (forks(t, w->joint[i])) points -= FORKED;
     }
     return path > 0 ? points - BENT * (1 - chord / path) : points;
 }
 
-/* Scores the limb that starts at way places a, b and ends at the last one; keeps the better. */
+/* Scores the limb of the chain's joints a, b and its last one, and keeps it in *best if it is better. */
 static void try_limb(const Tree *t, LimbKind kind, const Way *w, int a, int b, Limb *best) {
     int c = w->count - 1, end = w->joint[c];
     Limb limb = {.joint = {w->joint[a], w->joint[b], end}, .clavicle = -1, .found = true};
@@ -109,7 +133,7 @@ static void try_limb(const Tree *t, LimbKind kind, const Way *w, int a, int b, L
     limb.length[1] = sample_distance(t->sample, limb.joint[1], limb.joint[2]);
     double total = w->along[c] - w->along[0] + t->reach[end], both = limb.length[0] + limb.length[1];
     double shorter = fmin(limb.length[0], limb.length[1]), longer = fmax(limb.length[0], limb.length[1]);
-    if (!(both > 0) || both < 0.1 * total || shorter < 0.2 * longer) return;
+    if (!(both > 0) || both < BOTH_LEAST * total || shorter < SHORTER_LEAST * longer) return;
 
     double uneven = log(limb.length[0] / limb.length[1]) - EVEN[kind];
     limb.score = name_points(t, kind, limb.joint) - UNEVEN * uneven * uneven;
@@ -117,7 +141,7 @@ static void try_limb(const Tree *t, LimbKind kind, const Way *w, int a, int b, L
     limb.score += skip_points(t, w, a, b, limb.length[0]) + skip_points(t, w, b, c, limb.length[1]);
     limb.score -= FAR_START * fmax(0, w->along[a] / limb.length[0] - 1);
     if (t->skeleton->joint[end].is_end) limb.score -= NO_END_JOINT;
-    if (t->bone[end] < 0.02 * both) limb.score -= COINCIDES;
+    if (t->bone[end] < NO_WAY * both) limb.score -= COINCIDES;
     if (kind == LIMB_ARM) {
         double points;
         limb.clavicle = find_clavicle(t, w, a, &points);
@@ -130,6 +154,7 @@ static void try_limb(const Tree *t, LimbKind kind, const Way *w, int a, int b, L
     *best = limb;
 }
 
+/* Tries every limb of every chain that goes on from w with `joint`. */
 static void walk_limbs(const Tree *t, LimbKind kind, Way *w, int joint, Limb *best) {
     if (w->count >= DEPTH_MAX) return;
     double before = w->count > 0 ? w->along[w->count - 1] : 0;
@@ -158,10 +183,11 @@ static LimbPair make_pair(const Tree *t, LimbKind kind, int hub, const Limb *a, 
     double size = a->length[0] + a->length[1];
     pair.score -= MIRROR * square((da - db) / size);
     if (a->side * b->side < 0) pair.score += SIDES_NAMED;
-    if (a->side * b->side > 0) pair.score -= 4 * SIDES_NAMED;
+    if (a->side * b->side > 0) pair.score -= SAME_SIDE;
     return pair;
 }
 
+/* Keeps the `most` best pairs, best first. */
 static void keep_pair(LimbPair pair, int most, LimbPair *out, int *count) {
     int i = *count < most ? (*count)++ : most;
     if (i == most && pair.score <= out[most - 1].score) return;
@@ -170,22 +196,27 @@ static void keep_pair(LimbPair pair, int most, LimbPair *out, int *count) {
     out[i] = pair;
 }
 
+/* The best limbs that leave a hub, one for each child, best first. Returns their number; 0 where fewer than two joints
+   leave it. */
+static int limbs_of_hub(const Tree *t, LimbKind kind, int hub, Limb limb[CHILDREN_MAX]) {
+    int n = 0, children = 0;
+    for (int c = t->child[hub]; c >= 0; c = t->sibling[c]) children += !t->skeleton->joint[c].is_end;
+    for (int c = t->child[hub]; c >= 0 && children >= 2; c = t->sibling[c]) {
+        if (t->skeleton->joint[c].is_end) continue;
+        Limb l = best_limb(t, kind, c);
+        if (!l.found || (n == CHILDREN_MAX && limb[n - 1].score >= l.score)) continue;
+        int i = n < CHILDREN_MAX ? n++ : n - 1;
+        while (i > 0 && limb[i - 1].score < l.score) { limb[i] = limb[i - 1]; i--; }
+        limb[i] = l;
+    }
+    return n;
+}
+
 int limbs_find(const Tree *t, LimbKind kind, int most, LimbPair *out) {
     int count = 0;
     for (int hub = 0; hub < t->skeleton->njoints; hub++) {
-        Limb limb[CHILDREN_MAX] = {0};
-        int n = 0, children = 0;
-        for (int c = t->child[hub]; c >= 0; c = t->sibling[c]) children += !t->skeleton->joint[c].is_end;
-        if (children < 2) continue;
-        for (int c = t->child[hub]; c >= 0; c = t->sibling[c]) {
-            if (t->skeleton->joint[c].is_end) continue;
-            Limb l = best_limb(t, kind, c);
-            if (!l.found) continue;
-            int i = n < CHILDREN_MAX ? n++ : CHILDREN_MAX - 1;
-            if (n == CHILDREN_MAX && i == CHILDREN_MAX - 1 && limb[i].found && limb[i].score >= l.score) continue;
-            while (i > 0 && limb[i - 1].score < l.score) { limb[i] = limb[i - 1]; i--; }
-            limb[i] = l;
-        }
+        Limb limb[CHILDREN_MAX];
+        int n = limbs_of_hub(t, kind, hub, limb);
         for (int a = 0; a < n; a++)
             for (int b = a + 1; b < n; b++) keep_pair(make_pair(t, kind, hub, &limb[a], &limb[b]), most, out, &count);
     }

@@ -1,11 +1,10 @@
-/* A joint's name as a bag of words.
+/* A joint's name as a few known words.
 
-   Every naming family writes the same few words in its own way: LeftUpLeg, lThigh, thigh_l,
-   DEF-thigh.L.001, "Bip01 L Thigh", lfemur. So a name is cut where it shows a joint (signs, a
-   capital, a digit), what is left is cut into words of one small vocabulary, and phrases of
-   one or two words vote for bones. A word may vote for several bones, because families
-   disagree: LeftShoulder is the clavicle for one and the upper arm for another. Who is right
-   is decided where the whole limb is in view (limbs.c), not here. */
+   Every naming family writes the same few words in its own way: LeftUpLeg, lThigh, thigh_l, DEF-thigh.L.001,
+   "Bip01 L Thigh", lfemur. So a name is cut at signs, capitals and digits, the pieces are cut into words of one small
+   vocabulary, and phrases of one or two words vote for bones. A word may vote for several bones, because families
+   disagree: LeftShoulder is the clavicle in one and the upper arm in another. Which is right is decided where the whole
+   limb is known (limbs.c), not here. */
 #include "figure/names.h"
 
 #include <ctype.h>
@@ -13,12 +12,13 @@
 
 enum { WORDS_MAX = 16, TOKEN_MAX = 40 };
 
-/* Words that end the talk: the joint is a helper, a finger, a face. */
+/* Words that say nothing, or something only as part of a phrase. */
 static const char *const other[] = {
     "ball", "blade", "bone", "joint", "base", "root", "center", "centre", "mid", "twist", "roll", "bend", "share",
     "def", "org", "mch", "fk", "jnt", "jt", "bip", "rig", "character", "skeleton", "main", "body", "in", "up", "upper",
     "low", "lower", "fore", "front",
 };
+/* Words of what is no bone of the human: helpers, fingers, the face, clothes, things. */
 static const char *const strangers[] = {
     "end", "nub", "tip", "site", "ik", "pole", "target", "ctrl", "control", "helper", "muscle", "effector", "eff",
     "dummy", "eye", "eyes", "eyelid", "ear", "jaw", "hair", "breast", "bust", "thumb", "index", "middle", "ring",
@@ -43,8 +43,8 @@ static const Side foreign_sides[] = {
 };
 enum { NSIDES = sizeof sides / sizeof sides[0], NFOREIGN_SIDES = sizeof foreign_sides / sizeof foreign_sides[0] };
 
-/* A phrase: one word, or two that follow each other. where: 's' says it only of a bone that
-   has a side, 'c' only of a central one, 0 of both. */
+/* A phrase: one word, or two that follow each other, and the bone that it votes for. where: 's' if it does so only in
+   names that tell a side, 'c' only in names that do not, 0 in both. */
 typedef struct {
     const char *first, *second;
     char where;
@@ -155,7 +155,7 @@ static const char *vocabulary(int i) {
 typedef struct {
     int count;
     const char *word[WORDS_MAX];
-    int side; /* from characters that are no Latin words */
+    int side; /* told by other than Latin letters: +1 left, -1 right, 0 not told */
 } Words;
 
 /* Cuts a lower-case token into words of the vocabulary, longest first, all of it or nothing.
@@ -215,7 +215,7 @@ static int side_of_word(const char *word) {
     return 0;
 }
 
-/* What the last word says that speaks of a side (a prefix letter may mean something else). */
+/* The side by the last word that tells one: a first letter l or r may mean something else. */
 static int side_of(const Words *w) {
     int side = w->side;
     for (int i = 0; i < w->count; i++)

@@ -1,48 +1,54 @@
-/* Room between arms and trunk. A motion is captured on one body and played back on another: hands
-   that passed the hips then go through them, and no cloth can lie where two parts overlap.
+/* Room between arms and trunk. A motion is captured on one body and played back on another: hands that passed the
+   hips then go through them, and no cloth can lie where two parts overlap.
 
-   The one idea: the arm is looked at section by section. The point of a section that is nearest to a
-   part of the trunk must stand off it by what the cloth on both needs. A turn to the side, or forwards
-   for what is in front, moves that point on an arc; where on the arc the room is enough is found by
-   search. The largest turns of all sections are those of the arm. A section has a say only as far as
-   turning leads it away from the trunk; that say fades, so nothing here ever jumps. */
+   The arm is taken section by section. The point of a section that is nearest to a part of the trunk must stand off
+   it by what the cloth on both needs. A turn to the side, or forwards for what is in front, moves that point on an
+   arc; a search finds where on the arc there is room enough. The arm's turns are the largest that its sections ask
+   for. A section counts only as far as the turn moves it away from the trunk, and this share fades smoothly, so the
+   result is a continuous function of the pose. */
 #include "figure/relax.h"
 
 const double relax_most[TURNS] = {40, 20, 30};
 
 /* The parts that arms are kept off. */
 static const Role TRUNK[] = {ROLE_PELVIS, ROLE_SPINE, ROLE_CHEST, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH};
-enum { TRUNK_PARTS = sizeof TRUNK / sizeof TRUNK[0], SECTIONS_PER_PART = 8, FEET = 2, STEPS = 12 };
+enum {
+    TRUNK_PARTS = sizeof TRUNK / sizeof TRUNK[0],
+    SECTIONS_PER_PART = 8, /* of an arm's part that are looked at */
+    FEET = 2,              /* times that distance_of is measured again */
+    STEPS = 12,            /* of the search, at most */
+};
 
-/* A skirt spans from thigh to thigh: there it counts as if more thighs stood between the two, at these
-   parts of the way from left to right. */
+/* A skirt spans from thigh to thigh. So where one is worn, more thighs are imagined between the two, at these fractions
+   of the way from left to right. */
 static const double BETWEEN[] = {0.2, 0.4, 0.6, 0.8};
 enum { BETWEEN_PARTS = sizeof BETWEEN / sizeof BETWEEN[0], KEPT_OFF_MOST = TRUNK_PARTS + BETWEEN_PARTS };
 
-/* How much of the way of the turn (cosine) leads away from the trunk: below the first a section has no
-   say, from the second on its full say. */
+/* Cosine between the movement of a section's nearest point in the turn and the way out of the trunk there: below ASIDE
+   the section does not count, from ALONG on it counts in full. */
 static const double ASIDE = 0.1, ALONG = 0.4;
 
-/* To the side, unless the trunk is more behind than beside: the part of the whole way out that leads forwards
-   from which this counts, and from which it counts alone. */
+/* An arm is turned to the side, unless the trunk is more behind it than beside it. Share of the way out that turning
+   forwards would win: from RIVAL_FROM on the turn to the side counts less, from RIVAL_TO on not at all. */
 static const double RIVAL_FROM = 0.5, RIVAL_TO = 0.9;
 
-/* Near the shoulder every upper arm is in the chest: at the first place (in bone lengths) a section may
-   be deeper in it by so much (metres, for a figure of 1.70 m), beyond the second not at all. */
+/* Near the shoulder every upper arm is in the chest. Up to ARMPIT_FROM (in bone lengths) a section may be deeper in it
+   by ARMPIT_DEPTH (metres, for a figure of 1.70 m), beyond ARMPIT_TO not at all. */
 static const double ARMPIT_FROM = 0.45, ARMPIT_TO = 0.85, ARMPIT_DEPTH = 0.08;
 
-/* Sections of the forearm up to here go with the upper arm: the elbow could hardly move them. */
+/* Sections of the forearm up to here (in bone lengths) count with the upper arm: turning the elbow hardly moves
+   them. */
 static const double AT_ELBOW = 0.4;
 
-/* Degrees: an elbow that is nearly straight is a hinge that does not turn sideways; a bent one lets
-   the forearm go aside, because the upper arm turns about itself. */
+/* Degrees of bend. An elbow that is nearly straight does not turn sideways; one that is bent lets the forearm go
+   aside, because the upper arm turns about its axis. */
 static const double ELBOW_STIFF = 30, ELBOW_FREE = 90;
 
 /* Space beyond the cloth itself, metres for a figure of 1.70 m. */
 static const double SPARE = 0.008;
 
-/* Of the search: its first stride (radians; distances are good near the surface only), and its accuracy (metres
-   or radians). */
+/* The search: its first stride (radians; short, since distances are accurate only near the surface), and its accuracy
+   (metres or radians). */
 static const double STRIDE = 0.08, CLOSE = 1e-5;
 
 /* Beyond this distance (for a figure of 1.70 m) no part is looked at. */
@@ -97,7 +103,7 @@ static void turn_from(const Figure *f, Pose *pose, int arm, Role role, double ou
     for (Role r = role; r <= upper_arm(arm) + 2; r++) pose->bone[r] = rigid_mul(turn, pose->bone[r]);
 }
 
-/* Forwards comes last, for then all others are as they would be without. */
+/* Forwards comes last, so that the other turns are what they would be without it. */
 static void turn_arm(const Figure *f, Pose *pose, int arm, const ArmTurn *turn) {
     turn_from(f, pose, arm, upper_arm(arm), turn->angle[TURN_OUT], 0);
     turn_from(f, pose, arm, upper_arm(arm) + 1, turn->angle[TURN_ELBOW], 0);
@@ -125,7 +131,8 @@ typedef struct {
     Vec3 centre;
     Mat3 frame;
     Section section;
-    double cloth, grace; /* metres: of cloth on it, and that it may be nearer than cloth asks */
+    double cloth; /* metres of cloth on it */
+    double grace; /* metres that it may be nearer than the cloth asks */
 } Slice;
 
 static Slice slice_of(const Search *s, const BodyPart *part, double y) {
@@ -185,26 +192,31 @@ static Gap gap_after(const Search *s, const Slice *slice, int trunk, Rigid turn)
     return (Gap){wanted - slice->grace - distance, point, normal};
 }
 
-static double lack_after(const Search *s, const Slice *slice, int trunk, Vec3 at, Vec3 axis, double angle) {
-    return gap_after(s, slice, trunk, turn_about(at, axis, angle)).lack;
+/* --- turns --- */
+
+/* A way to turn an arm: pivot and unit axis, world frame. rival: the axis of another turn that is preferred where it
+   wins more room; a zero vector if there is none. */
+typedef struct { Vec3 at, axis, rival; } Swing;
+
+static double lack_after(const Search *s, const Slice *slice, int trunk, const Swing *w, double angle) {
+    return gap_after(s, slice, trunk, turn_about(w->at, w->axis, angle)).lack;
 }
 
-/* The least angle (radians, at most `most`) about `axis` at which nothing is missing; `lack` is what is
-   missing without it. In strides until there is room, then by the Illinois rule: the secant between
-   two bounds, where one that stays is given less weight. */
-static double least_angle(const Search *s, const Slice *slice, int trunk, Vec3 at, Vec3 axis, double lack,
-                          double most) {
+/* The least angle of the swing (radians, at most `most`) at which no room is missing. lack: what is missing at angle 0.
+   Goes in strides until there is room, then by the Illinois rule: the secant between two bounds, where one that has
+   stayed twice is given half the weight. */
+static double least_angle(const Search *s, const Slice *slice, int trunk, const Swing *w, double lack, double most) {
     double low = 0, high = 0, lack_low = lack, lack_high = lack;
     while (lack_high > 0) {
         if (high >= most) return most;
         low = high;
         lack_low = lack_high;
         high = fmin(high + STRIDE, most);
-        lack_high = lack_after(s, slice, trunk, at, axis, high);
+        lack_high = lack_after(s, slice, trunk, w, high);
     }
     for (int i = 0, stayed = 0; i < STEPS && high - low > CLOSE; i++) {
         double angle = low + (high - low) * lack_low / (lack_low - lack_high);
-        lack = lack_after(s, slice, trunk, at, axis, angle);
+        lack = lack_after(s, slice, trunk, w, angle);
         if (fabs(lack) < CLOSE) return angle;
         if (lack > 0) {
             low = angle;
@@ -221,21 +233,16 @@ static double least_angle(const Search *s, const Slice *slice, int trunk, Vec3 a
     return high;
 }
 
-/* --- turns --- */
-
-/* A way to turn an arm, and one that is preferred where it wins more room; a zero vector: none. */
-typedef struct { Vec3 at, axis, rival; } Swing;
-
-/* The angle (degrees, at most `most`) that a slice asks for because of a part. */
+/* The angle (degrees, at most `most`) that a slice asks for because of a part of the trunk. */
 static double angle_of(const Search *s, const Slice *slice, int trunk, const Swing *w, double most) {
     Gap gap = gap_after(s, slice, trunk, rigid_identity());
     if (gap.lack <= 0) return 0;
     Vec3 lever = vec_sub(gap.point, w->at), gain = vec_scale(vec_cross(lever, gap.normal), 1 / vec_len(lever));
     double own = vec_dot(gain, w->axis), rival = fmax(vec_dot(gain, w->rival), 0);
-    double say = smoothstep(ASIDE, ALONG, own);
-    if (say > 0) say *= 1 - smoothstep(RIVAL_FROM, RIVAL_TO, rival / hypot(own, rival));
-    if (say <= 0) return 0;
-    return say * least_angle(s, slice, trunk, w->at, w->axis, gap.lack, most * DEGREE) / DEGREE;
+    double share = smoothstep(ASIDE, ALONG, own);
+    if (share > 0) share *= 1 - smoothstep(RIVAL_FROM, RIVAL_TO, rival / hypot(own, rival));
+    if (share <= 0) return 0;
+    return share * least_angle(s, slice, trunk, w, gap.lack, most * DEGREE) / DEGREE;
 }
 
 /* The largest that the sections of a part between two places (bone lengths) ask for. */
@@ -252,7 +259,7 @@ static double angle_of_part(const Search *s, Role role, double from, double to, 
     return all;
 }
 
-/* Upper arm and elbow, or what lies beyond the elbow. */
+/* What upper arm and elbow ask for, and what lies beyond the elbow. */
 static double near_angle(const Search *s, const Swing *w, double most) {
     Role upper = upper_arm(s->arm);
     return fmax(angle_of_part(s, upper, ARMPIT_FROM, EVERYWHERE, w, most),

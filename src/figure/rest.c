@@ -1,19 +1,22 @@
-/* Is the zero pose human? If so, all joint frames are parallel to one standing body and the
-   whole binding follows from it; if not, nothing may be believed of it. So the tests are
-   strict where heaps could pass (feet along the shins, arms both to one side) and lenient
-   where rigs differ (legs astride, arms anywhere from level to hanging). Takes of rigs whose zero
-   pose is a heap often begin with a T-pose, which says as much. But a first frame may be one of
-   the motion itself, in which a body is turned and bent: it has to be straight. */
+/* Is the zero pose a human who stands? If so, the whole binding follows from it; if not, nothing in it may be believed.
+   So the tests are strict where a heap of bones could pass (feet along the shins, both arms to one side) and lenient
+   where rigs differ (legs astride, arms anywhere from level to hanging).
+
+   Takes of rigs whose zero pose is a heap often begin with a T-pose, which tells as much. But the first frame may also
+   belong to the motion itself, with a body that is turned and bent: so there arms and legs must be straight. */
 #include "figure/rest.h"
 
-/* Cosines, but where it is said. */
-static const double UPRIGHT = 0.87, SIDEWAYS = 0.96; /* nearer to an axis of the file trunk and left are taken for it */
-static const double TOGETHER = 0.85, LEANING = 0.3;  /* hips go the way of the shoulders; and along the trunk at most */
-static const double LEGS_DOWN = 0.8;                 /* astride as far as that */
-static const double ALONG_SHIN = 0.97, UP_SHIN = -0.5; /* between these a foot stands across */
-static const double RAISED = 0.5, INWARDS = -0.3;    /* arms: how far up, and to the other side, at most */
-static const double LEGS_LOPSIDED = 0.25, ARMS_LOPSIDED = 0.5; /* see lopsided: no cosines */
-static const double TEE = 0.42, HANGING = 0.87;      /* arms that go down less than that; and more */
+/* Cosines. */
+static const double UPRIGHT = 0.87, SIDEWAYS = 0.96; /* trunk and left line that near to an axis of the file mean it */
+static const double TOGETHER = 0.85;   /* least, between hip line and shoulder line */
+static const double LEANING = 0.3;     /* most, between hip line and trunk */
+static const double LEGS_DOWN = 0.8;   /* least, between legs and down: they may stand astride as far as that */
+static const double ALONG_SHIN = 0.97, UP_SHIN = -0.5; /* between foot and shin: most and least */
+static const double RAISED = 0.5;      /* most, between arms and up */
+static const double INWARDS = -0.3;    /* least, between an arm and its own side */
+static const double TEE = 0.42, HANGING = 0.87; /* between arms and down: less is a T-pose, more hangs */
+/* Lengths of the difference between a unit bone and the mirror image of the other. */
+static const double LEGS_LOPSIDED = 0.25, ARMS_LOPSIDED = 0.5;
 
 Vec3 rest_bone(const Rest *rest, const Figure *f, Role role) {
     if (f->toward[role] < 0) return vec(0, 0, 0);
@@ -30,7 +33,7 @@ Vec3 rest_snap(Vec3 v, double cosine) {
     return v;
 }
 
-/* Left, up and forward of the body that hips and shoulders span. */
+/* Sets rest->frame to left, up and forward of the body that hips and shoulders span. */
 static bool torso_is_human(const Figure *f, Rest *rest) {
     const int *j = f->roles.joint;
     Vec3 left_hip = rest_place(rest, j[ROLE_LEFT_THIGH]), right_hip = rest_place(rest, j[ROLE_RIGHT_THIGH]);
@@ -46,7 +49,8 @@ static bool torso_is_human(const Figure *f, Rest *rest) {
     return true;
 }
 
-/* The bone in the axes of the body, and how far it is from the mirror image of the one on the other side. */
+/* *bone: unit direction of a bone in the axes of the body. Returns the length of its difference from the mirror image
+   of the bone on the other side. */
 static double lopsided(const Figure *f, const Rest *rest, Role role, Vec3 *bone) {
     Mat3 to_body = mat_transpose(rest->frame);
     Vec3 other = mat_apply(to_body, rest_bone(rest, f, role_mirror(role)));
@@ -54,7 +58,8 @@ static double lopsided(const Figure *f, const Rest *rest, Role role, Vec3 *bone)
     return vec_dist(*bone, vec(-other.x, other.y, other.z));
 }
 
-/* Where an exporter has taken a frame of the motion for the zero pose, legs stride. */
+/* Some exporters take a frame of the motion for the zero pose. Then the legs stride, and are not each other's mirror
+   image. */
 static bool legs_are_human(const Figure *f, const Rest *rest) {
     static const Role bones[] = {ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN};
     Vec3 bone;
@@ -80,7 +85,7 @@ static bool is_human(const Figure *f, Rest *rest) {
     return torso_is_human(f, rest) && legs_are_human(f, rest) && arms_are_human(f, rest);
 }
 
-/* Legs that go down and arms that do not, neither of them bent. */
+/* Do legs go straight down, and straight arms to the side rather than down? */
 static bool is_straight(const Figure *f, const Rest *rest) {
     static const double STRAIGHT = 0.97, DOWN = 0.97, OFF_DOWN = 0.8;
     Vec3 up = mat_column(rest->frame, 1);

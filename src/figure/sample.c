@@ -1,8 +1,8 @@
 /* Evenly spread frames, kept as world transforms. */
 #include "figure/sample.h"
 
-enum { FIRST_FRAME_HAS_NO_VOTE_FROM = 8 }; /* frames in the motion */
-static const long TRANSFORMS_MAX = 200000; /* about 20 MB, for absurd joint counts */
+enum { LONG_MOTION = 8 };                  /* frames: from here on the first one is left out */
+static const long TRANSFORMS_MAX = 200000; /* of the sample, about 20 MB: many joints leave few frames */
 
 MUST_CHECK static bool read_rows(const Motion *m, MotionReader *reader, int count, const int *frame, double *row,
                                  Rigid *world, Error *e) {
@@ -13,6 +13,7 @@ MUST_CHECK static bool read_rows(const Motion *m, MotionReader *reader, int coun
     return true;
 }
 
+/* Sums from the joint up to the root: another order would round differently. */
 static void zero_pose(const Skeleton *s, Rigid *world) {
     for (int j = 0; j < s->njoints; j++) {
         Vec3 place = {0, 0, 0};
@@ -22,7 +23,7 @@ static void zero_pose(const Skeleton *s, Rigid *world) {
 }
 
 bool sample_read(const Motion *m, int wanted, Arena *arena, Sample *out, Error *e) {
-    int first = m->nframes >= FIRST_FRAME_HAS_NO_VOTE_FROM ? 1 : 0, n = m->nframes - first;
+    int first = m->nframes >= LONG_MOTION ? 1 : 0, n = m->nframes - first;
     int count = wanted < n ? wanted : n;
     if (count > SAMPLE_FRAMES_MAX) count = SAMPLE_FRAMES_MAX;
     long most = TRANSFORMS_MAX / (m->skeleton.njoints + 1) + 1;
@@ -66,11 +67,12 @@ int sample_best(const Sample *s, const double *score, int out[SAMPLE_BEST_MAX]) 
 }
 
 int sample_standing(const Sample *s, Mat3 upright, int ankle, int tip, double rise, int out[SAMPLE_BEST_MAX]) {
+    static const double SLACK = 0.5, STEEP = 4; /* rises that differ by so many rises are alike; weight of the rest */
     double score[SAMPLE_FRAMES_MAX];
     for (int i = 0; i < s->count; i++) {
         double low = mat_apply(upright, sample_point(s, i, tip)).y;
         double high = mat_apply(upright, sample_point(s, i, ankle)).y;
-        score[i] = -low - high - 4 * fmax(0, fabs(high - low - rise) - 0.5 * rise);
+        score[i] = -low - high - STEEP * fmax(0, fabs(high - low - rise) - SLACK * rise);
     }
     return sample_best(s, score, out);
 }

@@ -1,20 +1,21 @@
-/* Up is where heads are, most of the time. But people sit, bow, crawl and lie, some for the
-   whole take, so three witnesses are heard: the body's axis, the floor (the lowest joint stays
-   near zero along the up axis, not along others) and the zero pose, where that is human. A
-   still pose may be a handstand as well as a stance, so what a body does in a moment says half
-   as much as what it does for seconds. Where the second best is near, a note tells. */
+/* Up is where the head is, most of the time. But people sit, bow, crawl and lie, some for the whole take. So each of
+   the six axes gets points from three sources: the body's axis, the floor (along the up axis, and only along it, the
+   lowest joint stays near zero) and the rest pose, where that is human.
+
+   A single pose may as well be a handstand, so the body's axis counts less in a take of a moment than in one of several
+   seconds. If two axes have nearly the same points, a note tells. */
 #include "figure/upright.h"
 
-/* Weights of the witnesses against the body's axis, which has up to 1 in a take of LONG seconds. */
-static const double FLOOR = 0.8, ZERO_POSE = 0.6, MOMENT = 0.5, LONG = 3;
-/* Without a human zero pose y is up in most files, then z; down the same two in some that cameras wrote; x hardly
-   ever, so who lies along it lies. */
+/* Points. The body's axis has at most MOMENT in a single pose and 1 in a take of LONG seconds. */
+static const double FLOOR = 0.8, REST_POSE = 0.6, MOMENT = 0.5, LONG = 3;
+/* Won and lost by habit: without a human rest pose y is up in most files, z in some; in files that camera systems wrote
+   y or z may point down; x is up hardly ever: a body along x lies. */
 static const double HABIT_Y = 0.3, HABIT_Z = 0.15, DOWN = 0.6, ALONG_X = 1.3;
-/* The lowest joint of one who stands or lies on zero, in parts of hips to shoulders: a toe is over the sole,
-   floors are not quite level. Twice as far is no witness. The hips of one who floats about the origin are
-   nearer to it than those of one who lies there. */
+/* How far below and above zero the lowest joint may be, in parts of the length from hips to shoulders: a toe joint is
+   above the sole, and floors are not quite level. Twice as far tells nothing. Hips less than FLAT_HIPS above zero are
+   those of a figure that is held at the origin and stands on no floor. */
 static const double UNDER_ZERO = 0.15, OVER_ZERO = 0.35, FLAT_HIPS = 0.12;
-/* A lead that is told of. */
+/* A lead over the second axis below which a note tells. */
 static const double NARROW = 0.25;
 
 static Vec3 axis_of(char up) {
@@ -28,11 +29,12 @@ static Vec3 middle(const Sample *s, int frame, int a, int b) {
 }
 
 typedef struct {
-    Vec3 axis;     /* mean of the body's axis: hips -> shoulders and, less, ankles -> hips */
+    Vec3 axis;     /* mean of the body's axis, length up to 1: hips -> shoulders and, less, ankles -> hips */
     double torso;  /* mean length, hips to shoulders */
 } Stance;
 
 static Stance find_stance(const Sample *s, const Figure *f) {
+    static const double LEGS = 0.7; /* weight against the torso */
     const int *j = f->roles.joint;
     int left = f->toward[ROLE_LEFT_SHIN], right = f->toward[ROLE_RIGHT_SHIN];
     if (left < 0 || right < 0) left = j[ROLE_LEFT_SHIN], right = j[ROLE_RIGHT_SHIN];
@@ -41,9 +43,9 @@ static Stance find_stance(const Sample *s, const Figure *f) {
         Vec3 hips = middle(s, i, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]);
         Vec3 torso = vec_sub(middle(s, i, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]), hips);
         Vec3 legs = vec_sub(hips, middle(s, i, left, right));
-        /* Sitters stretch their legs: these count less. */
-        Vec3 sum = vec_mad(vec_unit_or(torso, vec(0, 0, 0)), vec_unit_or(legs, vec(0, 0, 0)), 0.7);
-        stance.axis = vec_mad(stance.axis, sum, 1 / 1.7 / s->count);
+        /* Legs count less: people who sit stretch them forwards. */
+        Vec3 sum = vec_mad(vec_unit_or(torso, vec(0, 0, 0)), vec_unit_or(legs, vec(0, 0, 0)), LEGS);
+        stance.axis = vec_mad(stance.axis, sum, 1 / (1 + LEGS) / s->count);
         stance.torso += vec_len(torso) / s->count;
     }
     return stance;
@@ -73,7 +75,7 @@ char upright_find(const Sample *s, const Figure *f, const Rest *rest, double sec
         double score = trust * vec_dot(axis, stance.axis) + FLOOR * stands_on_zero(s, f, axis, stance.torso);
         if (*c == 'Y' || *c == 'Z') score -= DOWN;
         if (*c == 'x' || *c == 'X') score -= ALONG_X;
-        if (rest->human) score += vec_dot(axis, mat_column(rest->frame, 1)) > 0.9 ? ZERO_POSE : 0;
+        if (rest->human) score += vec_dot(axis, mat_column(rest->frame, 1)) > 0.9 ? REST_POSE : 0;
         else score += *c == 'y' ? HABIT_Y : *c == 'z' ? HABIT_Z : 0;
         if (score > best) next = best, best = score, up = *c;
         else if (score > next) next = score;
