@@ -30,25 +30,33 @@ static void test_lying(void) {
     }
 }
 
-/* lafan1.bvh for five seconds, toppled about z, high over zero: nothing tells of a floor, but x is no axis for
-   up. */
-static void test_toppled(void) {
-    const char *path = in_folder("toppled.bvh");
+/* The up axis of lafan1.bvh, whose rest pose tells nothing, turned about z (degrees) and with all of it at one place. */
+static char up_turned(double turn, Vec3 place, double frame_time) {
+    const char *path = in_folder("turned.bvh");
     FILE *in = fopen("tests/data/figure/lafan1.bvh", "r"), *out = fopen(path, "w");
     char line[4096];
     double x, y, z, about_z;
     int used = 0;
     while (fgets(line, sizeof line, in)) {
         bool row = sscanf(line, "%lf %lf %lf %lf %n", &x, &y, &z, &about_z, &used) == 4;
-        if (row) fprintf(out, "%g 150 300 %g %s", x, about_z - 90, line + used);
-        else fputs(strstr(line, "Frame Time") ? "Frame Time: 0.5\n" : line, out);
+        if (row) fprintf(out, "%g %g %g %g %s", place.x, place.y, place.z, about_z + turn, line + used);
+        else if (strstr(line, "Frame Time")) fprintf(out, "Frame Time: %g\n", frame_time);
+        else fputs(line, out);
     }
     fclose(in);
     fclose(out);
     Rig r;
-    bool good = rig_open(&r, path, NULL) && r.figure.up == 'y';
-    OK(good, "who lies along x lies: up is %c", r.figure.up);
+    char up = rig_open(&r, path, NULL) ? r.figure.up : '?';
     rig_close(&r);
+    return up;
+}
+
+static void test_turned(void) {
+    char toppled = up_turned(-90, vec(0, 150, 300), 0.5), camera = up_turned(180, vec(0, 0, 0), 1e-3);
+    char head = up_turned(180, vec(0, 62, 0), 1e-3);
+    OK(toppled == 'y', "x is no axis for up, so who lies along it lies, high over zero: up is %c", toppled);
+    OK(camera == 'Y', "who stands along -y about the origin is seen by a camera, also for a moment: up is %c", camera);
+    OK(head == 'y', "who stands on the head on a floor is upside down: up is %c", head);
 }
 
 /* Who crouches on the toes for the whole take never shows how trunk, head and feet are at rest: the same take with a
@@ -185,7 +193,7 @@ static void test_only_kneel(void) {
 int main(void) {
     if (!folder_make()) return 1;
     test_lying();
-    test_toppled();
+    test_turned();
     test_crouch();
     test_sacrum();
     test_pose_in_front();

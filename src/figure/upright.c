@@ -9,8 +9,9 @@
 /* Points. The body's axis has at most MOMENT in a single pose and 1 in a take of LONG seconds. */
 static const double FLOOR = 0.8, REST_POSE = 0.6, MOMENT = 0.5, LONG = 3;
 /* Won and lost by habit: without a human rest pose y is up in most files, z in some; in files that camera systems wrote
-   y or z may point down; x is up hardly ever: a body along x lies. */
-static const double HABIT_Y = 0.3, HABIT_Z = 0.15, DOWN = 0.6, ALONG_X = 1.3;
+   y or z may point down; x is up hardly ever: a body along x lies. DOWN_Y in files where no axis has a floor: so write
+   cameras, which hold the root at the origin, and there a body along -y stands rather than lies. */
+static const double HABIT_Y = 0.3, HABIT_Z = 0.15, DOWN = 0.6, DOWN_Y = 0.25, ALONG_X = 1.3;
 /* How far below and above zero the lowest joint may be, in parts of the length from hips to shoulders: a toe joint is
    above the sole, and floors are not quite level. Twice as far tells nothing. Hips less than FLAT_HIPS above zero are
    those of a figure that is held at the origin and stands on no floor. */
@@ -69,15 +70,22 @@ char upright_find(const Sample *s, const Figure *f, const Rest *rest, double sec
     static const char axes[] = "yzxYZX";
     Stance stance = find_stance(s, f);
     double best = -1e300, next = -1e300, trust = MOMENT + (1 - MOMENT) * smoothstep(0, LONG, seconds);
+    double floor[6], clearest = 0;
     char up = 'y';
-    for (const char *c = axes; *c; c++) {
-        Vec3 axis = axis_of(*c);
-        double score = trust * vec_dot(axis, stance.axis) + FLOOR * stands_on_zero(s, f, axis, stance.torso);
-        if (*c == 'Y' || *c == 'Z') score -= DOWN;
-        if (*c == 'x' || *c == 'X') score -= ALONG_X;
+    for (int i = 0; i < 6; i++) {
+        floor[i] = stands_on_zero(s, f, axis_of(axes[i]), stance.torso);
+        clearest = fmax(clearest, floor[i]);
+    }
+    bool camera = clearest == 0 && !rest->human;
+    for (int i = 0; i < 6; i++) {
+        char c = axes[i];
+        Vec3 axis = axis_of(c);
+        double score = trust * vec_dot(axis, stance.axis) + FLOOR * floor[i];
+        if (c == 'Y' || c == 'Z') score -= c == 'Y' && camera ? DOWN_Y : DOWN;
+        if (c == 'x' || c == 'X') score -= ALONG_X;
         if (rest->human) score += vec_dot(axis, mat_column(rest->frame, 1)) > 0.9 ? REST_POSE : 0;
-        else score += *c == 'y' ? HABIT_Y : *c == 'z' ? HABIT_Z : 0;
-        if (score > best) next = best, best = score, up = *c;
+        else score += c == 'y' ? HABIT_Y : c == 'z' ? HABIT_Z : 0;
+        if (score > best) next = best, best = score, up = c;
         else if (score > next) next = score;
     }
     if (best - next < NARROW)
