@@ -8,16 +8,27 @@
 typedef struct {
     Vec3 at;
     double depth, radius; /* how far it is pressed in, and how far about its hollow goes; metres */
-    int vertex;
 } Presser;
+
+/* Some that follow each other: how far their hollows go, and how deep the deepest of them is. */
+enum { PRESSERS_A_BLOCK = 16 };
+typedef struct {
+    const Presser *presser;
+    int n;
+    Box reach;
+    double deepest;
+} PresserBlock;
 
 typedef struct {
     int nplaces;          /* of the lattice */
     bool is_off;          /* nothing is pressed in: it did harm in an attempt before */
     Presser *presser;
     int npressers;
+    PresserBlock *block;
+    int nblocks;
     Vec3 *way;            /* per vertex: in which direction it is pressed in, */
-    double *depth;        /* and how far */
+    double *depth;        /* and how far; */
+    int *slope;           /* the edges of the sheet where it is */
     Vec3 *hollow;         /* per vertex: how far it was pressed in, not counting single vertices */
     FieldSpots held;      /* what is left of the hollows of the frame that this one goes on from */
     double *spare;        /* per place: metres more that the hollow keeps from what it is worn over, for between its

@@ -50,6 +50,9 @@ MUST_CHECK bool lattice_build(const Fit *fit, int detail, int depth, Arena *aren
 /* Cells of the deepest level, of all patches. */
 static inline int lattice_cells(const Lattice *l) { return l->fit->npatches << (2 * l->depth); }
 
+/* Triangles of a mesh that is split everywhere. It has no more than three times as many edges. */
+static inline int lattice_triangles(const Lattice *l) { return 2 * l->fit->npatches * l->side * l->side; }
+
 /* Number of a place of a patch. */
 static inline int lattice_place(const Lattice *l, int patch, int i, int j) {
     int n = l->side + 1;

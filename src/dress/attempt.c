@@ -20,7 +20,7 @@ static const double FLAT = 5e-6;    /* metres: no facet is left less high than t
 
 bool cloth_reserve(Cloth *c, const Fit *fit, const Lattice *lattice, Arena *arena, Error *e) {
     *c = (Cloth){.fit = fit};
-    int triangles = 2 * fit->npatches * lattice->side * lattice->side, places = lattice->nplaces;
+    int triangles = lattice_triangles(lattice), places = lattice->nplaces;
     if (!leaves_reserve(&c->leaves, lattice, arena, e) || !sheet_reserve(&c->sheet, lattice, arena, e) ||
         !morph_reserve(&c->morph, lattice, arena, e) || !push_reserve(&c->push, lattice, arena, e) ||
         !settle_reserve(&c->settler, lattice, arena, e) ||

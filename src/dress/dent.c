@@ -8,7 +8,6 @@
    changes little. What still jumps is where room ends, so a hollow is pressed deeper at once, but fills with time. */
 #include "dress/dent.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "figure/relax.h"
@@ -34,7 +33,9 @@ bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e) {
     d->spare = ARENA_NEW(arena, double, lattice->nplaces, e);
     d->is_back = ARENA_NEW(arena, bool, lattice->nplaces, e);
     d->back = ARENA_NEW(arena, int, lattice->nplaces, e);
-    return d->presser && d->way && d->depth && d->hollow && d->spare && d->is_back && d->back &&
+    d->block = ARENA_NEW(arena, PresserBlock, lattice->nplaces / PRESSERS_A_BLOCK + ARMS, e);
+    d->slope = ARENA_NEW(arena, int, 3 * lattice_triangles(lattice), e);
+    return d->block && d->slope && d->presser && d->way && d->depth && d->hollow && d->spare && d->is_back && d->back &&
            field_reserve_spots(&d->held, lattice->nplaces, arena, e);
 }
 
@@ -184,51 +185,63 @@ static bool find_presser(const Push *p, const BodyFrame *body, const Sheet *shee
     }
     if (depth > 0) depth *= facing(inwards(p, place), n);
     if (depth > 0) depth = escape_free(&p->escape, body, place, at, clearance, n, depth);
-    *out = (Presser){at, depth, WIDE * p->field.scale + WIDENS * depth, vertex};
+    *out = (Presser){at, depth, WIDE * p->field.scale + WIDENS * depth};
     return depth > 0;
 }
 
-static int deepest_first(const void *a, const void *b) {
-    const Presser *x = a, *y = b;
-    if (x->depth != y->depth) return x->depth > y->depth ? -1 : 1;
-    return x->vertex - y->vertex;
-}
-
-/* An arm's hollow, without what is left of those of the frame before. */
+/* An arm's hollow, without what is left of those of the frame before. Vertices that follow each other lie near each
+   other, so a box round sixteen pressers leaves out most. */
 typedef struct {
     Vec3 way;
-    const Presser *presser; /* deepest first */
-    int n;
+    const PresserBlock *block;
+    int nblocks;
     Box reach;
 } Hollow;
 
-/* The pressers of an arm, to follow those that there are. */
+/* Adds a presser to the last block, or to a new one. */
+static void add_presser(Denter *d, Hollow *h, const Presser *by) {
+    if (h->nblocks == 0 || d->block[d->nblocks - 1].n == PRESSERS_A_BLOCK) {
+        d->block[d->nblocks++] = (PresserBlock){.presser = d->presser + d->npressers, .reach = box_empty()};
+        h->nblocks++;
+    }
+    PresserBlock *last = &d->block[d->nblocks - 1];
+    d->presser[d->npressers++] = *by;
+    last->n++;
+    last->deepest = fmax(last->deepest, by->depth);
+    Vec3 far = vec_scale(vec(1, 1, 1), by->radius);
+    box_add(&last->reach, vec_sub(by->at, far));
+    box_add(&last->reach, vec_add(by->at, far));
+    box_add(&h->reach, vec_sub(by->at, far));
+    box_add(&h->reach, vec_add(by->at, far));
+}
+
 static Hollow find_hollow(Denter *d, const Push *p, const BodyFrame *body, const Sheet *sheet, const Touch *t,
                           int arm) {
-    Presser *first = d->presser + d->npressers;
-    Hollow h = {.way = t->way[arm], .presser = first, .reach = box_empty()};
-    for (int v = 0; v < sheet->nvertices && d->npressers + h.n < d->nplaces; v++) {
-        if (!box_touches(t->before[arm], (Box){p->point[v], p->point[v]})) continue;
-        h.n += find_presser(p, body, sheet, v, t, arm, &first[h.n]);
+    Hollow h = {.way = t->way[arm], .block = d->block + d->nblocks, .reach = box_empty()};
+    for (int v = 0; v < sheet->nvertices && d->npressers < d->nplaces; v++) {
+        Presser by;
+        if (box_touches(t->before[arm], (Box){p->point[v], p->point[v]}) &&
+            find_presser(p, body, sheet, v, t, arm, &by))
+            add_presser(d, &h, &by);
     }
-    qsort(first, (size_t)h.n, sizeof *first, deepest_first);
-    for (int k = 0; k < h.n; k++) box_add(&h.reach, first[k].at);
-    Vec3 far = vec_scale(vec(1, 1, 1), h.n > 0 ? first[0].radius : 0);
-    h.reach = (Box){vec_sub(h.reach.low, far), vec_add(h.reach.high, far)};
-    d->npressers += h.n;
     return h;
+}
+
+/* How deep the hollow of a presser is at x. */
+static double depth_by(const Presser *by, Vec3 x) {
+    Vec3 off = vec_sub(x, by->at);
+    double away2 = vec_dot(off, off), radius2 = by->radius * by->radius;
+    if (away2 >= radius2) return 0;
+    double rest = 1 - away2 / radius2;
+    return rest * rest * by->depth;
 }
 
 /* How deep a hollow is at x. */
 static double depth_at(const Hollow *h, Vec3 x) {
     double depth = 0;
-    for (int k = 0; k < h->n && h->presser[k].depth > depth; k++) {
-        const Presser *by = &h->presser[k];
-        Vec3 off = vec_sub(x, by->at);
-        double away2 = vec_dot(off, off), radius2 = by->radius * by->radius;
-        if (away2 >= radius2) continue;
-        double rest = 1 - away2 / radius2;
-        if (rest * rest * by->depth > depth) depth = rest * rest * by->depth;
+    for (const PresserBlock *b = h->block; b < h->block + h->nblocks; b++) {
+        if (b->deepest <= depth || !box_touches(b->reach, (Box){x, x})) continue;
+        for (int k = 0; k < b->n; k++) depth = fmax(depth, depth_by(&b->presser[k], x));
     }
     return depth;
 }
@@ -262,14 +275,25 @@ static double step_between(const Denter *d, const Push *p, int deep, int other) 
     return STEEP * towards > SHRINKS * length ? SHRINKS * length * length / towards : STEEP * length;
 }
 
+/* The edges in and round the hollows: depths elsewhere are 0 and stay so. */
+static int find_slopes(const Denter *d, const Sheet *sheet) {
+    int n = 0;
+    for (int k = 0; k < sheet->nedges; k++) {
+        const int *v = sheet->edge[k].v;
+        if (d->depth[v[0]] > 0 || d->depth[v[1]] > 0) d->slope[n++] = k;
+    }
+    return n;
+}
+
 /* Makes steps in the hollows no larger than that: beside cloth that has no room others stay behind too. Returns
    whether all are. */
 static bool level(const Denter *d, const Push *p, const Sheet *sheet) {
+    int nslopes = find_slopes(d, sheet);
     bool moved = true;
     for (int round = 0; round < LEVEL_ROUNDS && moved; round++) {
         moved = false;
-        for (int k = 0; k < sheet->nedges; k++) {
-            const int *v = sheet->edge[round % 2 ? sheet->nedges - 1 - k : k].v;
+        for (int k = 0; k < nslopes; k++) {
+            const int *v = sheet->edge[d->slope[round % 2 ? nslopes - 1 - k : k]].v;
             if (d->depth[v[0]] == d->depth[v[1]]) continue;
             int deep = v[d->depth[v[0]] < d->depth[v[1]]], other = v[0] + v[1] - deep;
             double most = d->depth[other] + step_between(d, p, deep, other);
@@ -292,7 +316,7 @@ void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet, boo
     int n = 0;
     Touch t = {.parts = {0}};
     if (!d->is_off) t = find_touch(p, body, sheet);
-    d->npressers = 0;
+    d->npressers = d->nblocks = 0;
     for (int arm = 0; arm < ARMS; arm++)
         if (t.parts[arm]) hollow[n++] = find_hollow(d, p, body, sheet, &t, arm);
     bool any = !d->is_off && d->npressers + d->held.n > 0;

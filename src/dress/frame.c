@@ -64,7 +64,7 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
         !leaves_reserve(&d->by_rule, &d->lattice, arena, e) ||
         !solver_reserve(&d->solver, &d->fit, &d->lattice, options, arena, e) || !make_groups(d, arena, e))
         return false;
-    int triangles = 2 * d->fit.npatches * d->lattice.side * d->lattice.side, places = d->lattice.nplaces;
+    int triangles = lattice_triangles(&d->lattice), places = d->lattice.nplaces;
     d->root = ARENA_NEW(arena, Patch, d->fit.npatches, e);
     d->normal = ARENA_NEW(arena, Vec3, 2 * places, e); /* with those of creases */
     d->u = ARENA_NEW(arena, double, places, e);

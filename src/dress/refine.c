@@ -58,12 +58,13 @@ bool classifier_reserve(Classifier *c, const Lattice *lattice, Arena *arena, Err
     for (int level = 0; level <= lattice->depth; level++)
         if (!grid_rows(n << level, arena, &c->rows[level], e)) return false;
     c->position = ARENA_NEW(arena, Vec3, most * (n + 1) * (n + 1), e);
+    c->written = ARENA_NEW(arena, Vec3, most * (n + 1) * (n + 1), e);
     c->triangle = ARENA_NEW(arena, Triangle, most * n * n * 2, e);
     c->cell = ARENA_NEW(arena, LatticeCell, most, e);
     c->next = ARENA_NEW(arena, LatticeCell, most, e);
     c->hit = ARENA_NEW(arena, bool, most, e);
     c->found = ARENA_NEW(arena, Crossing, c->found_capacity, e);
-    return c->position && c->triangle && c->cell && c->next && c->hit && c->found &&
+    return c->position && c->written && c->triangle && c->cell && c->next && c->hit && c->found &&
            crossing_reserve(&c->set, most * n * n * 2, arena, e);
 }
 
@@ -83,23 +84,27 @@ void facets_of_cell(int n, int first, Triangle *out) {
         }
 }
 
-/* Tests `ncells` cells of one level: fills c->hit. */
-static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, int level, int ncells,
-                       Classification *out) {
-    const Lattice *l = c->lattice;
-    int n = l->detail, npoints = (n + 1) * (n + 1), ntriangles = 2 * n * n;
+/* The facets of `ncells` cells of one level. */
+static void lay_cells(Classifier *c, const Patch *root, int level, int ncells) {
+    int n = c->lattice->detail, npoints = (n + 1) * (n + 1);
     for (int k = 0; k < ncells; k++) {
-        unsigned parts = l->fit->patch[c->cell[k].patch].collide;
         cell_points(c, &root[c->cell[k].patch], c->cell[k], level, c->position + k * npoints);
-        facets_of_cell(n, k * npoints, c->triangle + k * ntriangles);
-        c->hit[k] = body_frame_any_inside(body, parts, c->position + k * npoints, npoints);
+        facets_of_cell(n, k * npoints, c->triangle + k * 2 * n * n);
     }
-    if (body->unit != 1)
-        for (int v = 0; v < ncells * npoints; v++) c->position[v] = vec_scale(c->position[v], body->unit);
-    crossing_build_triangles(&c->set, c->position, c->triangle, ncells * ntriangles);
+}
+
+static bool collides(const Classifier *c, const BodyFrame *body, int cell, int part) {
+    return c->lattice->fit->patch[c->cell[cell].patch].collide & part_bit(body, part);
+}
+
+/* Marks the cells whose facets are crossed by an edge of one of their colliders. */
+static void cross_cells(Classifier *c, const BodyFrame *body, int ncells, Classification *out) {
+    int n = c->lattice->detail, ntriangles = 2 * n * n;
+    for (int v = 0; v < ncells * (n + 1) * (n + 1); v++) c->written[v] = vec_scale(c->position[v], body->unit);
+    crossing_build_triangles(&c->set, c->written, c->triangle, ncells * ntriangles);
     Box cloth = c->plain ? box_all() : crossing_box(&c->set);
     for (int p = 0; p < body->body->nparts; p++) {
-        if (!(l->fit->collide & part_bit(body, p))) continue;
+        if (!(c->lattice->fit->collide & part_bit(body, p))) continue;
         const CrossingSet *edges = body_frame_edges(body, p, cloth);
         if (!edges) out->count.pairs_all += (long long)body->body->part[p].nedges * ncells * ntriangles;
         if (!edges) continue;
@@ -109,8 +114,22 @@ static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, 
         if (found < out->count.hits - before) out->capped = true;
         for (int k = 0; k < found; k++) {
             int cell = c->found[k].triangle / ntriangles;
-            if (l->fit->patch[c->cell[cell].patch].collide & part_bit(body, p)) c->hit[cell] = true;
+            if (collides(c, body, cell, p)) c->hit[cell] = true;
         }
+    }
+}
+
+/* Tests `ncells` cells of one level: fills c->hit. Whether corners lie inside is asked only of cells that no edge
+   crosses. */
+static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, int level, int ncells,
+                       Classification *out) {
+    int n = c->lattice->detail, npoints = (n + 1) * (n + 1);
+    for (int k = 0; k < ncells; k++) c->hit[k] = false;
+    lay_cells(c, root, level, ncells);
+    cross_cells(c, body, ncells, out);
+    for (int k = 0; k < ncells; k++) {
+        unsigned parts = c->lattice->fit->patch[c->cell[k].patch].collide;
+        c->hit[k] = c->hit[k] || body_frame_any_inside(body, parts, c->position + k * npoints, npoints);
     }
     if (level == 0 || out->nodes == 0) out->hits += out->count.hits;
     out->nodes += ncells;

@@ -6,7 +6,7 @@
 #include <string.h>
 
 bool sheet_reserve(Sheet *s, const Lattice *lattice, Arena *arena, Error *e) {
-    int places = lattice->nplaces, triangles = 2 * lattice->fit->npatches * lattice->side * lattice->side;
+    int places = lattice->nplaces, triangles = lattice_triangles(lattice);
     *s = (Sheet){.lattice = lattice};
     s->place = ARENA_NEW(arena, int, places, e);
     s->vertex = ARENA_NEW(arena, int, places, e);
