@@ -10,13 +10,13 @@ typedef struct {
     double depth, radius; /* how far it is pressed in, and how far about its hollow goes; metres */
 } Presser;
 
-/* Some that follow each other: how far their hollows go, and how deep the deepest of them is. */
+/* Some that follow each other: where they stand, and the most that any of them is deep and wide. */
 enum { PRESSERS_A_BLOCK = 16 };
 typedef struct {
     const Presser *presser;
     int n;
-    Box reach;
-    double deepest;
+    Box box;
+    double deepest, radius;
 } PresserBlock;
 
 typedef struct {

@@ -8,6 +8,7 @@
    changes little. What still jumps is where room ends, so a hollow is pressed deeper at once, but fills with time. */
 #include "dress/dent.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "figure/relax.h"
@@ -201,18 +202,24 @@ typedef struct {
 /* Adds a presser to the last block, or to a new one. */
 static void add_presser(Denter *d, Hollow *h, const Presser *by) {
     if (h->nblocks == 0 || d->block[d->nblocks - 1].n == PRESSERS_A_BLOCK) {
-        d->block[d->nblocks++] = (PresserBlock){.presser = d->presser + d->npressers, .reach = box_empty()};
+        d->block[d->nblocks++] = (PresserBlock){.presser = d->presser + d->npressers, .box = box_empty()};
         h->nblocks++;
     }
     PresserBlock *last = &d->block[d->nblocks - 1];
     d->presser[d->npressers++] = *by;
     last->n++;
     last->deepest = fmax(last->deepest, by->depth);
+    last->radius = fmax(last->radius, by->radius);
+    box_add(&last->box, by->at);
     Vec3 far = vec_scale(vec(1, 1, 1), by->radius);
-    box_add(&last->reach, vec_sub(by->at, far));
-    box_add(&last->reach, vec_add(by->at, far));
     box_add(&h->reach, vec_sub(by->at, far));
     box_add(&h->reach, vec_add(by->at, far));
+}
+
+static int deepest_first(const void *a, const void *b) {
+    const PresserBlock *x = a, *y = b;
+    if (x->deepest != y->deepest) return x->deepest > y->deepest ? -1 : 1;
+    return x->presser < y->presser ? -1 : 1;
 }
 
 static Hollow find_hollow(Denter *d, const Push *p, const BodyFrame *body, const Sheet *sheet, const Touch *t,
@@ -224,24 +231,25 @@ static Hollow find_hollow(Denter *d, const Push *p, const BodyFrame *body, const
             find_presser(p, body, sheet, v, t, arm, &by))
             add_presser(d, &h, &by);
     }
+    qsort(d->block + d->nblocks - h.nblocks, (size_t)h.nblocks, sizeof *d->block, deepest_first);
     return h;
 }
 
-/* How deep the hollow of a presser is at x. */
-static double depth_by(const Presser *by, Vec3 x) {
-    Vec3 off = vec_sub(x, by->at);
-    double away2 = vec_dot(off, off), radius2 = by->radius * by->radius;
-    if (away2 >= radius2) return 0;
-    double rest = 1 - away2 / radius2;
-    return rest * rest * by->depth;
+/* How deep a hollow of that depth and radius is so far from its middle. */
+static double depth_beside(double depth, double radius, double away2) {
+    double radius2 = radius * radius, rest = 1 - away2 / radius2;
+    return away2 < radius2 ? rest * rest * depth : 0;
 }
 
-/* How deep a hollow is at x. */
+/* How deep a hollow is at x. Blocks that can make it no deeper are left out. */
 static double depth_at(const Hollow *h, Vec3 x) {
     double depth = 0;
     for (const PresserBlock *b = h->block; b < h->block + h->nblocks; b++) {
-        if (b->deepest <= depth || !box_touches(b->reach, (Box){x, x})) continue;
-        for (int k = 0; k < b->n; k++) depth = fmax(depth, depth_by(&b->presser[k], x));
+        if (b->deepest <= depth || depth_beside(b->deepest, b->radius, box_distance2(b->box, x)) <= depth) continue;
+        for (const Presser *by = b->presser; by < b->presser + b->n; by++) {
+            Vec3 off = vec_sub(x, by->at);
+            depth = fmax(depth, depth_beside(by->depth, by->radius, vec_dot(off, off)));
+        }
     }
     return depth;
 }

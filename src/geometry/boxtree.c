@@ -111,15 +111,6 @@ int boxtree_next(BoxWalk *w) {
 
 /* --- nearest --- */
 
-static double outside(double x, double low, double high) { return x < low ? low - x : x > high ? x - high : 0; }
-
-/* Squared distance from p to a box. */
-static double box_distance2(Box b, Vec3 p) {
-    double x = outside(p.x, b.low.x, b.high.x), y = outside(p.y, b.low.y, b.high.y);
-    double z = outside(p.z, b.low.z, b.high.z);
-    return x * x + y * y + z * z;
-}
-
 static Vec3 segment_point(Vec3 p, Vec3 a, Vec3 b) {
     Vec3 d = vec_sub(b, a);
     double dd = vec_dot(d, d);
