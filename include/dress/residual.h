@@ -42,22 +42,24 @@ typedef struct {
     double deepest;  /* metres */
 } Residual;
 
+static inline int residual_total(const Residual *r) { return r->edges + r->cloth + r->inside; }
+
 /* What is wrong with a mesh, and what finding that has cost. */
 typedef struct {
-    Residual own, other;   /* parts that the garment is worn over, and all others that it keeps out of */
+    Residual own, other;   /* of parts that the garment is worn over; of all others, which come from outside */
     CrossingCount count;
 } Wrong;
 
 /* The last test's mesh, boxed, and where it found what. */
 typedef struct {
     unsigned own;         /* parts (bits 1 << role) that the garment is worn over */
-    int *bad, nbad;       /* vertices that must not be where they are, in the order found */
-    TesterHit *hit;       /* the crossings, likewise; of very many the first */
+    int *bad, nbad;       /* vertices inside a part, or of an edge or triangle that crosses one, in the order found */
+    TesterHit *hit;       /* the crossings, in the order found; of very many the first */
     int nhits;
     Vec3 *position;       /* private, as is what follows */
     int nvertices;
     TesterCloth all;
-    TesterCloth some;     /* those with a vertex that moves */
+    TesterCloth some;     /* its edges and triangles with a vertex that moves */
     int some_edges_most, some_triangles_most;
     Edge *some_edge;
     Triangle *some_triangle;
@@ -69,12 +71,12 @@ typedef struct {
 /* Room for meshes of up to this many edges and triangles. own: see Tester. */
 MUST_CHECK bool tester_reserve(Tester *t, int edges, int triangles, unsigned own, Arena *arena, Error *e);
 
-/* Tests a mesh in output units against all parts; its arrays must stay until the last test. clear, if not NULL:
-   per vertex whether it is known to be outside of all. */
+/* Tests a mesh in output units against all parts; its arrays must stay until the last test. clear, if not NULL: per
+   vertex whether it is known to be outside of all parts, so that it need not be asked. */
 Wrong tester_test(Tester *t, const BodyFrame *body, const Mesh *mesh, const bool *clear);
 
-/* Moves n vertices of that mesh, vertex[k] to to[k], and tests it again. w: what was wrong with it before. The
-   result, t->bad and t->hit are as if it were tested anew, but for their order. */
+/* Moves n vertices of that mesh, vertex[k] to to[k], and tests it again. w: the last test's result. The new result,
+   t->bad and t->hit are those of a test of the whole mesh, but for the order of the lists. */
 Wrong tester_again(Tester *t, const BodyFrame *body, const int *vertex, const Vec3 *to, int n, const bool *clear,
                    Wrong w);
 

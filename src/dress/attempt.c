@@ -1,6 +1,6 @@
-/* What crosses a part, or lies in it, is asked for a little more distance than all others, and again, until nothing
-   does. Most rounds move just those vertices and test what hangs on them; every third gives the surface as a whole
-   the chance to follow. */
+/* First the surface is pushed as a whole. Then, in rounds, every vertex that is in a part or belongs to something that
+   crosses one is asked to keep a little more distance than before, until nothing is found. Most rounds move only these
+   vertices and test only their edges and triangles; every third pushes the surface as a whole again. */
 #include "dress/attempt.h"
 
 #include <limits.h>
@@ -8,15 +8,13 @@
 #include "base/clock.h"
 #include "geometry/flat.h"
 
-/* Rounds of asking for more distance; every third time the whole surface gives way, not only the
-   vertices that were asked. */
-enum { ROUNDS_MAX = 9, SOLVE_EVERY = 3 };
-enum { MANY = 4 }; /* where more than this part of the vertices has moved, the whole mesh is tested */
-static const double HOPELESS = 0.03;/* residuals per edge of the mesh: nothing has ever mended that many */
-static const double HEADWAY = 0.7;  /* of the bad vertices may be left after a solution, or it is given up */
-static const double RAISE = 0.002;  /* metres of clearance added in a round where something crosses, on 1.70 m */
-enum { FLAT_ROUNDS = 4, FLAT_MOST = 256 };
-static const double FLAT = 5e-6;    /* metres: no facet is left less high than that */
+enum { ROUNDS_MAX = 9, SOLVE_EVERY = 3 }; /* rounds of asking for more distance; after so many the whole surface */
+enum { MANY = 4 };                   /* if more than one in so many vertices has moved, the whole mesh is tested */
+static const double HOPELESS = 0.03; /* findings per edge of the mesh: in 18,400 frames more was never mended */
+static const double HEADWAY = 0.7;   /* an attempt ends if more of the bad vertices is left after SOLVE_EVERY rounds */
+static const double RAISE = 0.002;   /* clearance added to a bad vertex in a round, metres on 1.70 m */
+enum { FLAT_ROUNDS = 4, FLAT_MOST = 256 }; /* of raising flat facets: rounds, and vertices moved in each */
+static const double FLAT = 5e-6;     /* metres: least height of a facet */
 
 bool cloth_reserve(Cloth *c, const Fit *fit, const Lattice *lattice, Arena *arena, Error *e) {
     *c = (Cloth){.fit = fit};
@@ -37,7 +35,7 @@ static void add_pairs(FrameStats *stats, const Wrong *w) {
     stats->pairs_tested += w->count.pairs_tested;
 }
 
-/* Vertices that are known to be outside of all parts need no test for that. */
+/* Marks the vertices that are known to be outside of all parts, so that the test need not ask. */
 static const bool *find_clear(Cloth *c) {
     push_clear(&c->push, &c->sheet, c->flag);
     return c->flag;
@@ -51,7 +49,7 @@ Wrong attempt_test(Cloth *c, const BodyFrame *body, FrameStats *stats) {
     return w;
 }
 
-/* The same, where the last test has found w, and since then only raised vertices have moved. */
+/* The same, if only raised vertices have moved since the last test. w: its result. */
 static Wrong test_raised(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *stats) {
     int n = c->settler.nraised;
     const int *raised = c->settler.raised;
@@ -61,19 +59,19 @@ static Wrong test_raised(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *s
     return w;
 }
 
-/* On the global shape, where splits open and close. */
+/* The global shape: of cells that were split or merged lately, between facets and surface (dress/morph). */
 static void start_push(Cloth *c) {
     push_start(&c->push, c->root, &c->leaves, &c->sheet);
     morph_points(&c->morph, &c->sheet, c->push.global);
 }
 
-/* The surface as a whole, then what that leaves of every vertex. */
+/* Pushes the surface as a whole, then every vertex that this leaves too near by itself. */
 static void push_all(Cloth *c, const BodyFrame *body, PushResult *result) {
     push_solve(&c->push, body, &c->sheet, result);
     settle_all(&c->settler, &c->push, body, &c->sheet, &result->capped);
 }
 
-/* Asks for more distance at all bad vertices; false where they have as much as there is. */
+/* Asks all bad vertices to keep more distance; false if all of them keep the most already. */
 static bool raise_bad(Cloth *c, int round) {
     bool raised = false;
     for (int k = 0; k < c->tester.nbad; k++)
@@ -81,7 +79,7 @@ static bool raise_bad(Cloth *c, int round) {
     return raised;
 }
 
-/* Pushes off what still crosses a part, and gives the raised vertices, or all, their distance. */
+/* Moves what crosses a part off it, then moves the raised vertices, or all, to the distance that they have to keep. */
 static void push_off(Cloth *c, const BodyFrame *body, bool all, PushResult *result) {
     settle_mark(&c->settler, &c->push, &c->sheet);
     for (int k = 0; k < c->tester.nhits; k++)
@@ -91,11 +89,11 @@ static void push_off(Cloth *c, const BodyFrame *body, bool all, PushResult *resu
 }
 
 bool attempt_is_hopeless(const Cloth *c, const Outcome *o) {
-    return residual_total(&o->wrong.own) > HOPELESS * c->sheet.nedges;
+    return outcome_shows(o) > HOPELESS * c->sheet.nedges;
 }
 
-/* What a limb from outside is left with is not mended at the price of a part that the garment is worn over: a round
-   that brings such a part to show is taken back. */
+/* A round in which cloth gives way to a limb from outside may make a part show that the garment is worn over. That is
+   worse, so such a round is taken back and is the last. */
 Outcome attempt_push(Cloth *c, const BodyFrame *body, FrameStats *stats) {
     double start = clock_seconds();
     int before = INT_MAX;
@@ -107,7 +105,7 @@ Outcome attempt_push(Cloth *c, const BodyFrame *body, FrameStats *stats) {
     for (int round = 0;; round++) {
         stats->push_s += clock_lap(&start);
         out.wrong = all_moved ? attempt_test(c, body, stats) : test_raised(c, body, out.wrong, stats);
-        bool is_clean = residual_total(&out.wrong.own) == 0, solve = round % SOLVE_EVERY == SOLVE_EVERY - 1;
+        bool is_clean = outcome_shows(&out) == 0, solve = round % SOLVE_EVERY == SOLVE_EVERY - 1;
         bool is_spoilt = was_clean && !is_clean && settle_restore(&c->settler, &c->push, &c->sheet);
         if (is_spoilt) out.wrong = test_raised(c, body, out.wrong, stats);
         bool raised = !is_spoilt && raise_bad(c, round);
@@ -133,8 +131,8 @@ Outcome attempt_rest(Cloth *c, const BodyFrame *body, FrameStats *stats) {
     return out;
 }
 
-/* Facets that fold over pass a moment at which text would leave nothing of them, or a vertex on the side of
-   another: there a corner steps aside by some hundredths of a millimetre. */
+/* A facet that folds over is flat for a moment: then rounding to the precision of the text would leave no area, or
+   put a vertex on the side of another facet. So one of its corners is moved by some hundredths of a millimetre. */
 Wrong attempt_raise_flat(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *stats) {
     double start = clock_seconds();
     for (int round = 0; round < FLAT_ROUNDS; round++) {
@@ -149,7 +147,8 @@ Wrong attempt_raise_flat(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *s
     return w;
 }
 
-/* Does the body leave cloth that is worn over `worn` no room before a part from outside, at a point of either? */
+/* Is there less than `needed` metres of room at a point between a part from outside and one of the parts `worn` (bits
+   1 << role)? Only parts that may press on each other count. */
 static bool has_no_room(const BodyFrame *body, unsigned worn, int part, Vec3 at, double needed) {
     BodyPoint x;
     body_point_move(&x, at);

@@ -1,15 +1,15 @@
-/* The last word on a frame: body edges through the cloth, cloth edges through the body, and cloth
-   vertices inside it, part by part, so that what is found can be named.
+/* The test of a frame's mesh: body edges through the cloth, cloth edges through the body, and cloth vertices inside it,
+   part by part.
 
-   While single vertices give way the mesh is tested again and again. Then only what hangs on them is
-   looked at: what was counted of their edges and triangles is taken back, and counted where they are now. */
+   While single vertices are moved the mesh is tested again and again. Then only their edges and triangles are tested:
+   what these had counted is subtracted, and what they count at their new places is added. */
 #include "dress/residual.h"
 
 #include "geometry/boxtree.h"
 
 enum { FOUND_MAX = 1 << 13, BAD_MAX = 3 * FOUND_MAX, HITS_MAX = BAD_MAX / 2 };
 enum { BLOCK = 16, LOT = 256 }; /* vertices that share a box; that are asked about at a time */
-enum { SOME = 8 };   /* there is room to move this part of all edges and triangles */
+enum { SOME = 8 }; /* one in so many of all edges and triangles may move; of more, the whole mesh is tested */
 
 static bool reserve_sets(TesterCloth *c, int edges, int triangles, Arena *arena, Error *e) {
     return crossing_reserve(&c->edges, edges, arena, e) && crossing_reserve(&c->triangles, triangles, arena, e);
@@ -76,7 +76,8 @@ static TesterHit hit_of_edge(const Tester *t, const TesterCloth *c, const BodyFr
     return (TesterHit){part, 2, {v[0], v[1], -1}, {1 - share, share}};
 }
 
-/* Edges (corners = 2) or triangles of the cloth that were found, to the hits and their vertices to the bad. */
+/* Appends crossings that were found to the hits, and their vertices to the bad: of edges of the cloth (corners = 2) or
+   of its triangles (3). */
 static void add_hits(Tester *t, const TesterCloth *c, const BodyFrame *body, int part, int corners, int found) {
     for (int k = 0; k < found && t->nhits < HITS_MAX; k++) {
         TesterHit *hit = &t->hit[t->nhits++];
@@ -85,7 +86,7 @@ static void add_hits(Tester *t, const TesterCloth *c, const BodyFrame *body, int
     }
 }
 
-/* Adds to *w what a cloth crosses. */
+/* Adds to *w what the edges and triangles of c cross. */
 static void cross(Tester *t, const TesterCloth *c, const BodyFrame *body, Wrong *w) {
     Box cloth = crossing_box(&c->edges);
     for (int p = 0; p < body->body->nparts; p++) {
@@ -122,7 +123,7 @@ static bool any_moves(const Tester *t, const int *v, int n) {
     return any;
 }
 
-/* False where there is no room for so many. */
+/* Lists the edges and triangles with a vertex that moves. False where there is no room for so many. */
 static bool find_some(Tester *t) {
     const TesterCloth *all = &t->all;
     TesterCloth *some = &t->some;
@@ -144,7 +145,8 @@ static bool find_some(Tester *t) {
     return true;
 }
 
-/* Counts what those that move cross, where they are now. sign: 1, -1 to take it back. The pairs of all stay. */
+/* Adds to *w (sign 1), or subtracts from it (-1), what those that move cross where they are now; but for pairs_all,
+   which stays that of one whole test. */
 static void count_some(Tester *t, const BodyFrame *body, int sign, Wrong *w) {
     Wrong some = {0};
     box(&t->some, t->position);
@@ -157,7 +159,7 @@ static void count_some(Tester *t, const BodyFrame *body, int sign, Wrong *w) {
     w->count.pairs_tested += sign * some.count.pairs_tested;
 }
 
-/* The hits of the others. */
+/* Drops the hits of those that move. */
 static void forget_hits(Tester *t) {
     int n = 0;
     for (int k = 0; k < t->nhits; k++)
@@ -193,7 +195,7 @@ static void box_vertices(Tester *t, double to_metres) {
     }
 }
 
-/* Vertices that may be inside of a part, and their points in metres. */
+/* Vertices that may be inside a part, and their points in metres. */
 typedef struct {
     int n, vertex[LOT];
     Vec3 point[LOT];

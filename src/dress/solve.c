@@ -1,18 +1,19 @@
-/* The local deformation of one frame: attempts (dress/attempt), until one leaves nothing that shows.
+/* The local deformation of one frame: attempts (dress/attempt), until after one of them nothing shows.
 
-   carry      what the frame before has displaced
-   prepare    what the next attempt does otherwise, where one has left something
-   is_better  which of two outcomes stays */
+   carry      takes over the displacement of the frame before
+   prepare    says from where each attempt begins
+   is_better  says which of two outcomes is kept */
 #include "dress/solve.h"
 
 #include "base/clock.h"
 
-static const double FAR = 0.65;     /* of the cap: cloth thrown farther than that, while something was left, is laid */
-static const double CLOSER = 0.6;   /* anew, and stays there if that share of the way does as well */
-static const double THROWN = 2;     /* residuals of cloth at the cap count 1 + this */
-static const double SLOW = 0.25;    /* metres a second on 1.70 m: so fast goes what nothing helps, */
-static const double DEEPER = 0.01;  /* unless the body came that many metres deeper into it */
-/* How far a level is moved against the next finer one: in a tight garment less, so that a place that is pinched
+static const double FAR = 0.65;     /* of the cap: cloth displaced farther is far away */
+static const double CLOSER = 0.6;   /* if nothing shows after either of two, the new one is better only if its displacement
+                                       is below this share of the old one's */
+static const double THROWN = 2;     /* what shows counts (1 + this) times if the cloth is displaced up to the cap */
+static const double SLOW = 0.25;    /* metres a second on 1.70 m: speed of cloth for which no attempt finds room, */
+static const double DEEPER = 0.01;  /* unless the body would be this much deeper in it (metres on 1.70 m) */
+/* How far a level is moved against the next finer one. In a tight garment it is less, so that a place that is pinched
    carries less of its neighbours away; a loose one gives way as a whole. */
 static const double TIGHT = 0.7, LOOSE = 1;
 
@@ -40,12 +41,13 @@ static void split_where_bad(Cloth *c) {
     }
 }
 
-/* The state of the last attempt, to take back after another. The test is made anew for what the tester holds. */
+/* Keeps the state of the last attempt; take_back returns to it after another one. */
 static void keep(Solver *s) {
     push_keep(&s->cloth.push, s->cloth.sheet.nvertices);
     leaves_copy(&s->cloth.leaves, &s->kept);
 }
 
+/* Tests again, so that the tester's lists belong to this state. */
 static void take_back(Solver *s, const BodyFrame *body, FrameStats *stats) {
     push_restore(&s->cloth.push);
     leaves_copy(&s->kept, &s->cloth.leaves);
@@ -53,9 +55,9 @@ static void take_back(Solver *s, const BodyFrame *body, FrameStats *stats) {
     attempt_test(&s->cloth, body, stats);
 }
 
-/* Where an attempt leaves something of the parts that the garment is worn over, others are made from the
-   global shape alone: as if nothing had been before; and with finer patches where that leaves something. The best
-   stays. */
+/* The attempts of a frame. The first begins with the displacement of the frame before. If after it something shows,
+   another begins with the global shape alone, as if there had been no frame before, and a third in addition with finer
+   patches where something showed. */
 enum { CARRIED, FRESH, FINER, ATTEMPTS };
 static void prepare(Solver *s, int attempt) {
     Cloth *c = &s->cloth;
@@ -69,27 +71,27 @@ static void prepare(Solver *s, int attempt) {
 
 static bool is_far(const Outcome *o, double cap) { return o->push.displacement > FAR * cap; }
 
-/* Of outcomes that leave something, cloth that has been thrown far counts too. */
+/* If something shows after both, it counts the more the farther the cloth has been displaced for it. */
 static bool is_better(const Outcome *a, const Outcome *b, double cap) {
-    int own_a = residual_total(&a->wrong.own), own_b = residual_total(&b->wrong.own);
+    int shows_a = outcome_shows(a), shows_b = outcome_shows(b);
     double far_a = a->push.displacement / cap, far_b = b->push.displacement / cap;
-    if (own_a == 0 && own_b == 0) return far_a < CLOSER * far_b;
-    return own_a * (1 + THROWN * far_a) < own_b * (1 + THROWN * far_b);
+    if (shows_a == 0 && shows_b == 0) return far_a < CLOSER * far_b;
+    return shows_a * (1 + THROWN * far_a) < shows_b * (1 + THROWN * far_b);
 }
 
-/* Is another attempt worth making? Where something is left, but not so much that the body leaves no room at all. The
-   first also while cloth lies far away that has been thrown there when something was left. */
+/* Is this attempt, after the first, worth making? Yes if something shows, but not so much that there is no room at all.
+   FRESH also if nothing shows, but the cloth is still far away since a frame in which something did. */
 static bool is_wanting(const Solver *s, const Outcome *o, int attempt) {
-    int own = residual_total(&o->wrong.own);
-    if (attempt == FRESH) return own > 0 || (s->is_thrown && is_far(o, s->cloth.push.field.cap));
-    return own > 0 && !attempt_is_hopeless(&s->cloth, o);
+    bool shows = outcome_shows(o) > 0;
+    if (attempt == FRESH) return shows || (s->is_thrown && is_far(o, s->cloth.push.field.cap));
+    return shows && !attempt_is_hopeless(&s->cloth, o);
 }
 
-/* A loose garment finds its ways. */
+/* Only tight garments: a loose one nearly always finds room. */
 static bool may_go_slowly(const Solver *s) { return !s->cloth.fit->garment->loose; }
 
-/* Where the body leaves a tight garment no room, in every frame another way out is the one that helps most, and cloth
-   would fly to and fro: there it goes slowly, unless that lets the body in deeper. */
+/* Where the body leaves a tight garment no room, the best way out is another one in every frame, and cloth would fly to
+   and fro. So there its displacement may change by SLOW at most, unless the body would be deeper in it then. */
 static void go_slowly(Solver *s, const BodyFrame *body, double dt, Outcome *best, FrameStats *stats) {
     Cloth *c = &s->cloth;
     double scale = c->push.field.scale;
@@ -114,7 +116,7 @@ static Wrong push_and_test(Solver *s, const BodyFrame *body, double dt, Tie tie,
     stats->sweeps = best.push.sweeps;
     for (int k = FRESH; k < ATTEMPTS && is_wanting(s, &best, k); k++) {
         keep(s);
-        c->settler.denter.is_off = residual_total(&best.wrong.own) > 0;
+        c->settler.denter.is_off = outcome_shows(&best) > 0;
         prepare(s, k);
         Outcome other = attempt_push(c, body, stats);
         stats->sweeps += other.push.sweeps;
@@ -122,17 +124,18 @@ static Wrong push_and_test(Solver *s, const BodyFrame *body, double dt, Tie tie,
         else take_back(s, body, stats);
     }
     c->settler.denter.is_off = false;
-    bool goes_slowly = tie == TIE_GOES_ON && may_go_slowly(s) && residual_total(&best.wrong.own) > 0;
+    bool goes_slowly = tie == TIE_GOES_ON && may_go_slowly(s) && outcome_shows(&best) > 0;
     if (goes_slowly) go_slowly(s, body, dt, &best, stats);
-    s->is_thrown = is_far(&best, cap) && (s->is_thrown || residual_total(&best.wrong.own) > 0);
-    stats->capped |= residual_total(&best.wrong.own) + residual_total(&best.wrong.other) > 0 || best.push.capped;
+    s->is_thrown = is_far(&best, cap) && (s->is_thrown || outcome_shows(&best) > 0);
+    stats->capped |= outcome_shows(&best) > 0 || residual_total(&best.wrong.other) > 0 || best.push.capped;
     stats->active = best.push.active;
     stats->pinched = best.push.pinched + attempt_pinched(c, body);
     stats->displacement = best.push.displacement;
     return best.wrong;
 }
 
-/* A frame that is astray leaves nothing behind. */
+/* Takes over the displacement of the frame before. Frames that are astray leave nothing behind: the first of them puts
+   the field aside, and the first frame after them goes on from there. */
 static void carry(Solver *s, const BodyFrame *body, double dt, Tie tie) {
     Cloth *c = &s->cloth;
     if (tie == TIE_ASTRAY && !s->is_astray) field_copy(&c->push.field, &s->before);
