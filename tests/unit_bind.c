@@ -30,7 +30,7 @@ static void test_lying(void) {
     }
 }
 
-/* The up axis of lafan1.bvh, whose rest pose tells nothing, turned about z (degrees) and with all of it at one place. */
+/* The up axis of lafan1.bvh, whose rest pose tells nothing, turned about z (degrees) and all in one place. */
 static char up_turned(double turn, Vec3 place, double frame_time) {
     const char *path = in_folder("turned.bvh");
     FILE *in = fopen("tests/data/figure/lafan1.bvh", "r"), *out = fopen(path, "w");

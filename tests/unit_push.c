@@ -138,9 +138,9 @@ static void nothing_is_needless(const char *name) {
     body_frame_pose(&s->posed, &pose);
     follow_pose(&c.follower, &pose, c.root);
     push.coarser = 1;
-    push_start(&push, c.root, &c.leaves, &c.sheet);
-    push_solve(&push, &s->posed, &c.sheet, &result);
-    push_measure(&push, &s->posed, &c.sheet, &result);
+    push_start(&push, &s->posed, c.root, &c.leaves, &c.sheet);
+    push_solve(&push, &result);
+    push_measure(&push, &result);
     double needless = most_needless(&push, &s->posed);
     OK(result.displacement > 0.01 && needless < 0.001, "%s: moved %.1f mm, no more than %.1f mm of it needless", name,
        1e3 * result.displacement, 1e3 * needless);

@@ -19,7 +19,7 @@ static void push_short(Pushed *p, double share) {
     Cloth *c = &p->cloth;
     double cap = c->push.field.cap;
     c->push.field.cap = share * cap;
-    push_solve(&c->push, &p->of.scene.posed, &c->sheet, &p->result);
+    push_solve(&c->push, &p->result);
     c->push.field.cap = cap;
 }
 
@@ -39,7 +39,7 @@ static void push(Pushed *p, const char *name, double share) {
     tessellate(&c->sheet, &c->leaves);
     leaves_fill(&c->leaves, 0);
     c->push.coarser = 1;
-    push_start(&c->push, c->root, &c->leaves, &c->sheet);
+    push_start(&c->push, &s->posed, c->root, &c->leaves, &c->sheet);
     settle_start(&c->settler);
     p->result = (PushResult){0};
     push_short(p, share);
@@ -76,7 +76,7 @@ static void gives_the_rest(const char *name, double share) {
     push(&p, name, share);
     Cloth *c = &p.cloth;
     int before = count_missing(&p, 0.2 * p.margin), inside = count_missing(&p, p.margin);
-    settle_all(&c->settler, &c->push, &p.of.scene.posed, &c->sheet, &p.result.capped);
+    settle_all(&c->settler, &c->push, &p.result.capped);
     int after = count_missing(&p, 0.2 * p.margin), still = count_missing(&p, p.margin);
     OK(before > 0 && after <= before / 4, "%s: %d vertices miss some of their distance, %d are inside; then %d and %d",
        name, before, inside, after, still);
@@ -102,7 +102,7 @@ static void gives_no_more(void) {
     for (int v = 0; v < c->sheet.nvertices; v++) c->push.global[v].x += 0.05; /* into both legs */
     c->push.near_known = false;
     push_short(&p, 0.01);
-    settle_all(&c->settler, &c->push, &p.of.scene.posed, &c->sheet, &capped);
+    settle_all(&c->settler, &c->push, &capped);
     OK(capped && fabs(longest_offset(&p) - p.longest) < 1e-9 && count_missing(&p, p.margin) > 0,
        "what lies deeper is left there, and the cap told (%d vertices inside)", count_missing(&p, p.margin));
     arena_free(&p.of.scene.arena);
@@ -136,8 +136,8 @@ static void goes_back(void) {
     memcpy(point, c->push.point, (size_t)c->sheet.nvertices * sizeof *point);
     memcpy(offset, spots->at, (size_t)c->push.lattice->nplaces * sizeof *offset);
     memcpy(dent, c->push.field.dent.at, (size_t)c->push.lattice->nplaces * sizeof *dent);
-    settle_mark(&c->settler, &c->push, &c->sheet);
-    settle_raised(&c->settler, &c->push, &p.of.scene.posed, &c->sheet, &p.result.capped);
+    settle_mark(&c->settler, &c->push);
+    settle_raised(&c->settler, &c->push, &p.result.capped);
     int moved = 0, others = 0;
     for (int v = 0; v < c->sheet.nvertices; v++) {
         bool raised = c->push.clearance[v] > p.margin, gone = vec_dist(c->push.point[v], point[v]) > 0;
@@ -145,14 +145,14 @@ static void goes_back(void) {
         others += gone && !raised;
     }
     OK(moved > 0 && others == 0, "%d of %d raised vertices move, and no others", moved, c->settler.nraised);
-    OK(settle_restore(&c->settler, &c->push, &c->sheet), "what was marked can be taken back");
+    OK(settle_restore(&c->settler, &c->push), "what was marked can be taken back");
     OK(memcmp(point, c->push.point, (size_t)c->sheet.nvertices * sizeof *point) == 0, "every vertex, to the bit");
     OK(memcmp(offset, spots->at, (size_t)c->push.lattice->nplaces * sizeof *offset) == 0 &&
            memcmp(dent, c->push.field.dent.at, (size_t)c->push.lattice->nplaces * sizeof *dent) == 0,
        "every offset and every dent");
     for (int v = 0; v < c->sheet.nvertices; v++) (void)settle_raise(&c->settler, &c->push, v, 0.005, 1);
-    settle_mark(&c->settler, &c->push, &c->sheet);
-    OK(c->settler.nraised <= MARKED_MOST || !settle_restore(&c->settler, &c->push, &c->sheet),
+    settle_mark(&c->settler, &c->push);
+    OK(c->settler.nraised <= MARKED_MOST || !settle_restore(&c->settler, &c->push),
        "too many to remember (%d) are not taken back", c->settler.nraised);
     arena_free(&p.of.scene.arena);
 }
@@ -177,10 +177,10 @@ static void moves_hits_off(void) {
         const TesterHit *hit = &c->tester.hit[k];
         if (!escape_is_own(&c->push.escape, body, c->sheet.place[tester_hit_vertex(hit)], hit->part)) continue;
         double before = hit_distance(&p, hit);
-        settle_hit(&c->settler, &c->push, body, &c->sheet, hit);
+        settle_hit(&c->settler, &c->push, hit);
         early += hit_distance(&p, hit) != before && c->settler.nraised == 0;
         for (int i = 0; i < hit->n; i++) (void)settle_raise(&c->settler, &c->push, hit->v[i], 0.002, 0.002);
-        settle_hit(&c->settler, &c->push, body, &c->sheet, hit);
+        settle_hit(&c->settler, &c->push, hit);
         double after = hit_distance(&p, hit);
         own++;
         off += after > 0.4 * p.margin;

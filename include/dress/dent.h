@@ -51,12 +51,12 @@ void dent_round(Denter *d);
 
 /* Presses the cloth in that arms which touch it have to get past, with what is round it; only as far as there is room
    in front of what it is worn over. *capped becomes true where a cap kept it from going farther. */
-void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet, bool *capped);
+void dent_all(Denter *d, Push *p, bool *capped);
 
 /* Moves a single vertex by so much more, at most that far from where its hollow is. */
-void dent_add(const Denter *d, Push *p, const Sheet *sheet, int vertex, Vec3 by, double most, bool *capped);
+void dent_add(const Denter *d, Push *p, int vertex, Vec3 by, double most, bool *capped);
 
 /* Takes a vertex back out of its hollow, the farther the more often it is asked, and keeps it from there. */
-void dent_back(Denter *d, Push *p, const Sheet *sheet, int vertex);
+void dent_back(Denter *d, Push *p, int vertex);
 
 #endif

@@ -30,6 +30,8 @@ typedef struct {
 /* The displacement and the solver's memory. */
 typedef struct {
     const Lattice *lattice;
+    const BodyFrame *body;            /* of this frame, */
+    const Sheet *sheet;               /* and the cloth's mesh; borrowed, see push_start */
     Escape escape;
     Surface surface;
     Field field;
@@ -63,24 +65,25 @@ typedef struct {
 
 MUST_CHECK bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e);
 
-/* Evaluates the global shape from the root patches at the vertices of the sheet. */
-void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *sheet);
+/* Begins a solution: evaluates the global shape from the root patches at the vertices of the sheet. All that follows
+   speaks of this body, these root patches and this sheet, which must stay where they are. */
+void push_start(Push *p, const BodyFrame *body, const Patch *root, const Leaves *leaves, const Sheet *sheet);
 
 /* Displaces the vertices of the sheet until they keep their clearance, but for what is left to dress/settle:
    projection onto half spaces, in sweeps. May be called again, with other clearances; adds to *result. */
-void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
+void push_solve(Push *p, PushResult *result);
 
 /* Moves a single vertex by so much more; no farther from the global shape than the cap. */
 void push_vertex(Push *p, int vertex, Vec3 by, bool *capped);
 
 /* Instead of solving: leaves the sheet where the field has it. */
-void push_rest(Push *p, const Sheet *sheet);
+void push_rest(Push *p);
 
 /* Fills what the solution amounts to: active, pinched, displacement. */
-void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result);
+void push_measure(const Push *p, PushResult *result);
 
 /* Per mesh vertex whether it is known to be outside of all parts. */
-void push_clear(const Push *p, const Sheet *sheet, bool *clear);
+void push_clear(const Push *p, bool *clear);
 
 /* Keeps a solution of that many vertices, to take it back, with the sheet that it was made for, after
    another attempt. */

@@ -23,8 +23,8 @@ void settle_start(Settler *s);
 
 /* Moves all vertices of a sheet that are too near to a part, or those of them that were raised. *capped becomes true
    where that takes more than a single vertex may be moved. */
-void settle_all(Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, bool *capped);
-void settle_raised(const Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, bool *capped);
+void settle_all(Settler *s, Push *p, bool *capped);
+void settle_raised(const Settler *s, Push *p, bool *capped);
 
 /* Asks for `by` more clearance at a vertex, up to `most` more than others have (metres on 1.70 m). Returns false
    where it has as much. */
@@ -32,10 +32,10 @@ bool settle_raise(Settler *s, Push *p, int vertex, double by, double most);
 
 /* Chords can cut the body although their ends are outside. Moves the vertices of a hit, if all were raised, by
    the least that takes its point out of the part. */
-void settle_hit(Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit);
+void settle_hit(Settler *s, Push *p, const TesterHit *hit);
 
 /* Remembers where the raised vertices are, and puts them back there; false where there were too many. */
-void settle_mark(Settler *s, const Push *p, const Sheet *sheet);
-bool settle_restore(const Settler *s, Push *p, const Sheet *sheet);
+void settle_mark(Settler *s, const Push *p);
+bool settle_restore(const Settler *s, Push *p);
 
 #endif

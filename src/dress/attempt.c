@@ -37,7 +37,7 @@ static void add_pairs(FrameStats *stats, const Wrong *w) {
 
 /* Marks the vertices that are known to be outside of all parts, so that the test need not ask. */
 static const bool *find_clear(Cloth *c) {
-    push_clear(&c->push, &c->sheet, c->flag);
+    push_clear(&c->push, c->flag);
     return c->flag;
 }
 
@@ -60,15 +60,15 @@ static Wrong test_raised(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *s
 }
 
 /* The global shape: of cells that were split or merged lately, between facets and surface (dress/morph). */
-static void start_push(Cloth *c) {
-    push_start(&c->push, c->root, &c->leaves, &c->sheet);
+static void start_push(Cloth *c, const BodyFrame *body) {
+    push_start(&c->push, body, c->root, &c->leaves, &c->sheet);
     morph_points(&c->morph, &c->sheet, c->push.global);
 }
 
 /* Pushes the surface as a whole, then every vertex that this leaves too near by itself. */
-static void push_all(Cloth *c, const BodyFrame *body, PushResult *result) {
-    push_solve(&c->push, body, &c->sheet, result);
-    settle_all(&c->settler, &c->push, body, &c->sheet, &result->capped);
+static void push_all(Cloth *c, PushResult *result) {
+    push_solve(&c->push, result);
+    settle_all(&c->settler, &c->push, &result->capped);
 }
 
 /* Asks all bad vertices to keep more distance; false if all of them keep the most already. */
@@ -80,12 +80,12 @@ static bool raise_bad(Cloth *c, int round) {
 }
 
 /* Moves what crosses a part off it, then moves the raised vertices, or all, to the distance that they have to keep. */
-static void push_off(Cloth *c, const BodyFrame *body, bool all, PushResult *result) {
-    settle_mark(&c->settler, &c->push, &c->sheet);
+static void push_off(Cloth *c, bool all, PushResult *result) {
+    settle_mark(&c->settler, &c->push);
     for (int k = 0; k < c->tester.nhits; k++)
-        settle_hit(&c->settler, &c->push, body, &c->sheet, &c->tester.hit[k]);
-    if (all) push_all(c, body, result);
-    else settle_raised(&c->settler, &c->push, body, &c->sheet, &result->capped);
+        settle_hit(&c->settler, &c->push, &c->tester.hit[k]);
+    if (all) push_all(c, result);
+    else settle_raised(&c->settler, &c->push, &result->capped);
 }
 
 bool attempt_is_hopeless(const Cloth *c, const Outcome *o) {
@@ -99,14 +99,14 @@ Outcome attempt_push(Cloth *c, const BodyFrame *body, FrameStats *stats) {
     int before = INT_MAX;
     bool all_moved = true, was_clean = false;
     Outcome out = {.push = {0}};
-    start_push(c);
+    start_push(c, body);
     settle_start(&c->settler);
-    push_all(c, body, &out.push);
+    push_all(c, &out.push);
     for (int round = 0;; round++) {
         stats->push_s += clock_lap(&start);
         out.wrong = all_moved ? attempt_test(c, body, stats) : test_raised(c, body, out.wrong, stats);
         bool is_clean = outcome_shows(&out) == 0, solve = round % SOLVE_EVERY == SOLVE_EVERY - 1;
-        bool is_spoilt = was_clean && !is_clean && settle_restore(&c->settler, &c->push, &c->sheet);
+        bool is_spoilt = was_clean && !is_clean && settle_restore(&c->settler, &c->push);
         if (is_spoilt) out.wrong = test_raised(c, body, out.wrong, stats);
         bool raised = !is_spoilt && raise_bad(c, round);
         stats->test_s += clock_lap(&start);
@@ -115,18 +115,18 @@ Outcome attempt_push(Cloth *c, const BodyFrame *body, FrameStats *stats) {
         if (solve) before = c->tester.nbad;
         all_moved = solve || c->settler.nraised > c->sheet.nvertices / MANY;
         was_clean = is_clean;
-        push_off(c, body, solve, &out.push);
+        push_off(c, solve, &out.push);
     }
-    push_measure(&c->push, body, &c->sheet, &out.push);
+    push_measure(&c->push, &out.push);
     return out;
 }
 
 Outcome attempt_rest(Cloth *c, const BodyFrame *body, FrameStats *stats) {
     double start = clock_seconds();
-    start_push(c);
-    push_rest(&c->push, &c->sheet);
+    start_push(c, body);
+    push_rest(&c->push);
     Outcome out = {.wrong = attempt_test(c, body, stats)};
-    push_measure(&c->push, body, &c->sheet, &out.push);
+    push_measure(&c->push, &out.push);
     stats->test_s += clock_lap(&start);
     return out;
 }

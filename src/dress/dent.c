@@ -70,7 +70,8 @@ static Vec3 inwards(const Push *p, int place) {
 }
 
 /* Parts of arms that a garment is not worn over, bits 1 << part. Others come from inside, as feet and neck do. */
-static unsigned bare_arms(const Push *p, const BodyFrame *body) {
+static unsigned bare_arms(const Push *p) {
+    const BodyFrame *body = p->body;
     unsigned parts = 0;
     for (int k = 0; k < body->body->nparts; k++) {
         bool is_arm = arm_of(body, k) == ARM_LEFT || arm_of(body, k) == ARM_RIGHT;
@@ -87,9 +88,10 @@ typedef struct {
 } Touch;
 
 /* Adds what a vertex is too near to: the nearer the more its way into the garment counts. */
-static void add_touch(Touch *t, const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, unsigned parts) {
+static void add_touch(Touch *t, const Push *p, int vertex, unsigned parts) {
+    const BodyFrame *body = p->body;
     double clearance = PUSH_MARGIN * p->field.scale;
-    int place = sheet->place[vertex];
+    int place = p->sheet->place[vertex];
     for (; parts; parts &= parts - 1) {
         int k = near_first(parts);
         if (p->field.lattice->collide[place] & part_bit(body, k)) continue;
@@ -113,7 +115,8 @@ static Vec3 across_arm(const BodyFrame *body, int arm, Vec3 way) {
 }
 
 /* All of an arm presses where a part of it touches. */
-static void complete(Touch *t, const Push *p, const BodyFrame *body, int arm, unsigned bare) {
+static void complete(Touch *t, const Push *p, int arm, unsigned bare) {
+    const BodyFrame *body = p->body;
     double clearance = PUSH_MARGIN * p->field.scale;
     Vec3 far = vec(clearance, clearance, clearance);
     t->way[arm] = across_arm(body, arm, vec_unit_or(t->way[arm], vec(0, 0, 0)));
@@ -130,15 +133,15 @@ static void complete(Touch *t, const Push *p, const BodyFrame *body, int arm, un
     }
 }
 
-static Touch find_touch(const Push *p, const BodyFrame *body, const Sheet *sheet) {
+static Touch find_touch(const Push *p) {
     Touch t = {.parts = {0}};
-    unsigned bare = bare_arms(p, body);
-    for (int v = 0; v < sheet->nvertices; v++) {
+    unsigned bare = bare_arms(p);
+    for (int v = 0; v < p->sheet->nvertices; v++) {
         double slack = near_slack(p->near[v].least, p->clearance[v]);
-        if (slack <= vec_dist(p->point[v], p->near[v].seen)) add_touch(&t, p, body, sheet, v, bare);
+        if (slack <= vec_dist(p->point[v], p->near[v].seen)) add_touch(&t, p, v, bare);
     }
     for (int arm = 0; arm < ARMS; arm++)
-        if (t.parts[arm]) complete(&t, p, body, arm, bare);
+        if (t.parts[arm]) complete(&t, p, arm, bare);
     return t;
 }
 
@@ -174,9 +177,9 @@ static double way_past(const BodyFrame *body, int part, Vec3 at, Vec3 n, double 
 static double facing(Vec3 inwards, Vec3 n) { return smoothstep(0, FACES, vec_dot(inwards, n)); }
 
 /* Does an arm press a vertex in, with the part that does so the farthest? */
-static bool find_presser(const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex, const Touch *t, int arm,
-                         Presser *out) {
-    int place = sheet->place[vertex];
+static bool find_presser(const Push *p, int vertex, const Touch *t, int arm, Presser *out) {
+    const BodyFrame *body = p->body;
+    int place = p->sheet->place[vertex];
     double clearance = PUSH_MARGIN * p->field.scale, depth = 0;
     Vec3 at = p->point[vertex], n = t->way[arm];
     for (unsigned left = t->parts[arm]; left; left &= left - 1) {
@@ -222,13 +225,12 @@ static int deepest_first(const void *a, const void *b) {
     return x->presser < y->presser ? -1 : 1;
 }
 
-static Hollow find_hollow(Denter *d, const Push *p, const BodyFrame *body, const Sheet *sheet, const Touch *t,
-                          int arm) {
+static Hollow find_hollow(Denter *d, const Push *p, const Touch *t, int arm) {
     Hollow h = {.way = t->way[arm], .block = d->block + d->nblocks, .reach = box_empty()};
-    for (int v = 0; v < sheet->nvertices && d->npressers < d->nplaces; v++) {
+    for (int v = 0; v < p->sheet->nvertices && d->npressers < d->nplaces; v++) {
         Presser by;
         if (box_touches(t->before[arm], (Box){p->point[v], p->point[v]}) &&
-            find_presser(p, body, sheet, v, t, arm, &by))
+            find_presser(p, v, t, arm, &by))
             add_presser(d, &h, &by);
     }
     qsort(d->block + d->nblocks - h.nblocks, (size_t)h.nblocks, sizeof *d->block, deepest_first);
@@ -255,9 +257,8 @@ static double depth_at(const Hollow *h, Vec3 x) {
 }
 
 /* How far a vertex is pressed in, and which way, as there is room: by arms, or from the frame before. */
-static void find_depth(Denter *d, const Push *p, const BodyFrame *body, const Sheet *sheet, int vertex,
-                       const Hollow *hollow, int nhollows) {
-    int place = sheet->place[vertex];
+static void find_depth(Denter *d, const Push *p, int vertex, const Hollow *hollow, int nhollows) {
+    int place = p->sheet->place[vertex];
     Vec3 at = p->point[vertex], way = d->held.at[place], n = {0, 0, 0};
     double depth = vec_len(way);
     d->depth[vertex] = 0;
@@ -272,8 +273,8 @@ static void find_depth(Denter *d, const Push *p, const BodyFrame *body, const Sh
     }
     if (depth <= 0) return;
     d->way[vertex] = vec_unit_or(way, inwards(p, place));
-    d->depth[vertex] = escape_free(&p->escape, body, place, at, p->clearance[vertex] + d->spare[place] + CHORD * depth,
-                                   d->way[vertex], fmin(depth, p->field.cap));
+    double clearance = p->clearance[vertex] + d->spare[place] + CHORD * depth;
+    d->depth[vertex] = escape_free(&p->escape, p->body, place, at, clearance, d->way[vertex], fmin(depth, p->field.cap));
 }
 
 /* How much deeper than its neighbour a vertex may be. */
@@ -295,13 +296,13 @@ static int find_slopes(const Denter *d, const Sheet *sheet) {
 
 /* Makes steps in the hollows no larger than that: beside cloth that has no room others stay behind too. Returns
    whether all are. */
-static bool level(const Denter *d, const Push *p, const Sheet *sheet) {
-    int nslopes = find_slopes(d, sheet);
+static bool level(const Denter *d, const Push *p) {
+    int nslopes = find_slopes(d, p->sheet);
     bool moved = true;
     for (int round = 0; round < LEVEL_ROUNDS && moved; round++) {
         moved = false;
         for (int k = 0; k < nslopes; k++) {
-            const int *v = sheet->edge[d->slope[round % 2 ? nslopes - 1 - k : k]].v;
+            const int *v = p->sheet->edge[d->slope[round % 2 ? nslopes - 1 - k : k]].v;
             if (d->depth[v[0]] == d->depth[v[1]]) continue;
             int deep = v[d->depth[v[0]] < d->depth[v[1]]], other = v[0] + v[1] - deep;
             double most = d->depth[other] + step_between(d, p, deep, other);
@@ -313,42 +314,43 @@ static bool level(const Denter *d, const Push *p, const Sheet *sheet) {
     return !moved;
 }
 
-static void set_dent(Push *p, const Sheet *sheet, int vertex, Vec3 dent, bool *capped) {
-    int place = sheet->place[vertex];
+static void set_dent(Push *p, int vertex, Vec3 dent, bool *capped) {
+    int place = p->sheet->place[vertex];
     push_vertex(p, vertex, vec_sub(dent, p->field.dent.at[place]), capped);
     field_set_spot(&p->field.dent, place, dent);
 }
 
-void dent_all(Denter *d, Push *p, const BodyFrame *body, const Sheet *sheet, bool *capped) {
+void dent_all(Denter *d, Push *p, bool *capped) {
+    const Sheet *sheet = p->sheet;
     Hollow hollow[ARMS];
     int n = 0;
     Touch t = {.parts = {0}};
-    if (!d->is_off) t = find_touch(p, body, sheet);
+    if (!d->is_off) t = find_touch(p);
     d->npressers = d->nblocks = 0;
     for (int arm = 0; arm < ARMS; arm++)
-        if (t.parts[arm]) hollow[n++] = find_hollow(d, p, body, sheet, &t, arm);
+        if (t.parts[arm]) hollow[n++] = find_hollow(d, p, &t, arm);
     bool any = !d->is_off && d->npressers + d->held.n > 0;
-    for (int v = 0; v < sheet->nvertices && any; v++) find_depth(d, p, body, sheet, v, hollow, n);
-    if (any && !level(d, p, sheet)) *capped = true;
+    for (int v = 0; v < sheet->nvertices && any; v++) find_depth(d, p, v, hollow, n);
+    if (any && !level(d, p)) *capped = true;
     for (int v = 0; v < sheet->nvertices && any; v++)
-        if (d->depth[v] > 0) set_dent(p, sheet, v, vec_scale(d->way[v], d->depth[v]), capped);
+        if (d->depth[v] > 0) set_dent(p, v, vec_scale(d->way[v], d->depth[v]), capped);
     for (int v = 0; v < sheet->nvertices; v++) d->hollow[v] = p->field.dent.at[sheet->place[v]];
 }
 
-void dent_add(const Denter *d, Push *p, const Sheet *sheet, int vertex, Vec3 by, double most, bool *capped) {
-    Vec3 more = vec_sub(vec_add(p->field.dent.at[sheet->place[vertex]], by), d->hollow[vertex]);
-    set_dent(p, sheet, vertex, vec_add(d->hollow[vertex], field_limit(more, most, capped)), capped);
+void dent_add(const Denter *d, Push *p, int vertex, Vec3 by, double most, bool *capped) {
+    Vec3 more = vec_sub(vec_add(p->field.dent.at[p->sheet->place[vertex]], by), d->hollow[vertex]);
+    set_dent(p, vertex, vec_add(d->hollow[vertex], field_limit(more, most, capped)), capped);
 }
 
-void dent_back(Denter *d, Push *p, const Sheet *sheet, int vertex) {
-    int place = sheet->place[vertex];
+void dent_back(Denter *d, Push *p, int vertex) {
+    int place = p->sheet->place[vertex];
     Vec3 dent = p->field.dent.at[place];
     if (d->is_back[place] || field_is_zero(dent)) return;
     double *spare = &d->spare[place], step = *spare + BACK * p->field.scale, depth = vec_len(dent);
     *spare += step;
     d->any_spare = true;
     bool capped, is_out = *spare > MOST_BACK * p->field.scale || step >= depth;
-    set_dent(p, sheet, vertex, is_out ? vec(0, 0, 0) : vec_scale(dent, 1 - step / depth), &capped);
+    set_dent(p, vertex, is_out ? vec(0, 0, 0) : vec_scale(dent, 1 - step / depth), &capped);
     d->back[d->nback++] = place;
     d->is_back[place] = true;
 }

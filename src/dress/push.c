@@ -118,16 +118,16 @@ static void find_levels(Push *p) {
 }
 
 /* A vertex displaced by d: never farther than the cap, whatever the levels add up to. */
-static Vec3 displaced(const Push *p, const Sheet *sheet, int vertex, Vec3 d) {
+static Vec3 displaced(const Push *p, int vertex, Vec3 d) {
     bool capped = false;
-    int place = sheet->place[vertex];
+    int place = p->sheet->place[vertex];
     Vec3 own = vec_add(p->field.offset.at[place], p->field.dent.at[place]);
     return vec_add(p->global[vertex], field_limit(vec_add(d, own), p->field.cap, &capped));
 }
 
-static void find_points(Push *p, const Sheet *sheet) {
-    surface_field(&p->surface, sheet, &p->field, p->point);
-    for (int v = 0; v < sheet->nvertices; v++) p->point[v] = displaced(p, sheet, v, p->point[v]);
+static void find_points(Push *p) {
+    surface_field(&p->surface, p->sheet, &p->field, p->point);
+    for (int v = 0; v < p->sheet->nvertices; v++) p->point[v] = displaced(p, v, p->point[v]);
 }
 
 static void weigh(const PushSample *s, double weight[][4]) {
@@ -135,11 +135,11 @@ static void weigh(const PushSample *s, double weight[][4]) {
         for (int k = 0; k < 4; k++) weight[level][k] = s->u->weight[level][k / 2] * s->w->weight[level][k % 2];
 }
 
-static Vec3 sample_point(const Push *p, const Sheet *sheet, const PushSample *s, double weight[][4]) {
+static Vec3 sample_point(const Push *p, const PushSample *s, double weight[][4]) {
     Vec3 d = {0, 0, 0};
     for (int level = 0; level < s->cell->levels; level++)
         for (int k = 0; k < 4; k++) d = vec_mad(d, p->field.displacement[s->cell->unknown[level][k]], weight[level][k]);
-    return displaced(p, sheet, s->vertex, d);
+    return displaced(p, s->vertex, d);
 }
 
 /* Parts that move the surface at a place: those that it is worn over, and those that the garment is worn
@@ -168,16 +168,17 @@ static void add_sample(Push *p, int vertex, int place, unsigned parts, double fa
     s->net = vec(0, 0, 0);
 }
 
-static void find_samples(Push *p, const BodyFrame *body, const Sheet *sheet) {
+static void find_samples(Push *p) {
+    const Sheet *sheet = p->sheet;
     double far = (PUSH_MARGIN + REACH) * p->field.scale;
     p->nsamples = 0;
     memset(p->patch_travel, 0, (size_t)p->lattice->fit->npatches * sizeof *p->patch_travel);
     memset(p->travel, 0, (size_t)p->field.start[LATTICE_LEVELS] * sizeof *p->travel);
-    find_points(p, sheet);
-    near_find(p->near, body, sheet, p->point, far, p->near_known);
+    find_points(p);
+    near_find(p->near, p->body, sheet, p->point, far, p->near_known);
     p->near_known = true;
     for (int v = 0; v < sheet->nvertices; v++) {
-        unsigned parts = near_parts(&p->near[v], body, movers(p, sheet->place[v]));
+        unsigned parts = near_parts(&p->near[v], p->body, movers(p, sheet->place[v]));
         if (parts) add_sample(p, v, sheet->place[v], parts, far);
     }
 }
@@ -236,12 +237,12 @@ static inline bool is_at_rest(const Push *p, const PushSample *s) {
 }
 
 /* May a sample have? What moves it is held against its slack, then its own way. If so it is placed. */
-static bool needs_asking(Push *p, const Sheet *sheet, PushSample *s, double weight[][4]) {
+static bool needs_asking(Push *p, PushSample *s, double weight[][4]) {
     double slack = near_slack(s->near.least, enough_for(p, s)), way = travelled(p, s);
     s->patch_travelled = p->patch_travel[s->patch] - (way - s->travelled);
     if (slack > way - s->travelled) return false;
     weigh(s, weight);
-    Vec3 x = sample_point(p, sheet, s, weight);
+    Vec3 x = sample_point(p, s, weight);
     double gone = vec_dist(x, s->near.seen);
     s->travelled = way;
     s->patch_travelled = p->patch_travel[s->patch];
@@ -252,27 +253,27 @@ static bool needs_asking(Push *p, const Sheet *sheet, PushSample *s, double weig
 
 /* Others may have carried a sample farther out than it asked for itself. Then it takes its own pushes back, as far as
    it keeps its clearance; they stay spent. Returns how far that is. */
-static double take_back(Push *p, const Sheet *sheet, PushSample *s, double weight[][4], double clearance,
-                        PushResult *result) {
+static double take_back(Push *p, PushSample *s, double weight[][4], double clearance, PushResult *result) {
     double pushed = vec_len(s->net), way = fmin(s->near.least - clearance, pushed);
     if (pushed <= 0 || way <= 0) return 0;
     Vec3 n = vec_scale(s->net, -1 / pushed);
     s->net = vec_mad(s->net, n, way);
     project(p, s, weight, n, way, result);
-    near_move(&s->near, sample_point(p, sheet, s, weight));
+    near_move(&s->near, sample_point(p, s, weight));
     return way;
 }
 
 /* Pushes one sample out of the parts it is too near to. Parts that have been found clear are left alone until the
    sample has used up its slack, but for those that give way: in a fold that may change at once. Returns the depth
    of the worst violation that was acted on. */
-static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, PushSample *s, PushResult *result) {
+static double push_sample(Push *p, PushSample *s, PushResult *result) {
+    const BodyFrame *body = p->body;
     if (s->budget >= 0 && is_pinched(p, s)) return 0; /* it has had its say */
     double clearance = p->clearance[s->vertex], enough = enough_for(p, s), most = 0;
     double far = clearance + REACH * p->field.scale, weight[LATTICE_LEVELS][4];
-    if (!needs_asking(p, sheet, s, weight)) return 0;
+    if (!needs_asking(p, s, weight)) return 0;
     EscapePoint at;
-    escape_at(&at, sheet->place[s->vertex], s->near.seen, clearance);
+    escape_at(&at, p->sheet->place[s->vertex], s->near.seen, clearance);
     at.near = s->near.parts;
     at.slack = p->slack;
     for (unsigned left = s->near.parts; left; left &= left - 1) {
@@ -288,33 +289,33 @@ static double push_sample(Push *p, const BodyFrame *body, const Sheet *sheet, Pu
         s->spent += depth;
         s->net = vec_mad(s->net, n, depth);
         project(p, s, weight, n, depth, result);
-        near_move(&s->near, sample_point(p, sheet, s, weight));
+        near_move(&s->near, sample_point(p, s, weight));
         body_point_move(&at.point, s->near.seen);
         most = fmax(most, depth);
     }
     near_sum(&s->near, far);
-    if (most == 0 && p->takes_back) p->taken = fmax(p->taken, take_back(p, sheet, s, weight, at.clearance, result));
+    if (most == 0 && p->takes_back) p->taken = fmax(p->taken, take_back(p, s, weight, at.clearance, result));
     return most;
 }
 
 /* One pass over all samples; returns how far one was pushed at most, 0 = nothing to do. */
-static double sweep(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
+static double sweep(Push *p, PushResult *result) {
     double most = 0;
     p->taken = 0;
     for (int k = 0; k < p->nsamples; k++)
-        if (!is_at_rest(p, &p->sample[k])) most = fmax(most, push_sample(p, body, sheet, &p->sample[k], result));
+        if (!is_at_rest(p, &p->sample[k])) most = fmax(most, push_sample(p, &p->sample[k], result));
     return most;
 }
 
 /* Sweeps until nothing is violated and little taken back, or nothing gets better, or the cap; the last ones take
    nothing back. Returns the sum of the largest moves: nobody has gone farther. */
-static double sweep_all(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
+static double sweep_all(Push *p, PushResult *result) {
     double moved = 0, before = INFINITY, most = 0;
     bool stalls = false;
     p->takes_back = true;
     for (int k = 0; k < SWEEPS_MAX && !stalls; k++) {
         p->slack = k == 0 ? 0 : SLACK;
-        most = sweep(p, body, sheet, result);
+        most = sweep(p, result);
         if (most <= 0 && p->taken <= 0) break;
         moved += fmax(most, p->taken);
         result->sweeps++;
@@ -328,7 +329,9 @@ static double sweep_all(Push *p, const BodyFrame *body, const Sheet *sheet, Push
     return moved;
 }
 
-void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *sheet) {
+void push_start(Push *p, const BodyFrame *body, const Patch *root, const Leaves *leaves, const Sheet *sheet) {
+    p->body = body;
+    p->sheet = sheet;
     p->near_known = false;
     p->escape.root = root;
     find_mobility(p, leaves);
@@ -337,19 +340,19 @@ void push_start(Push *p, const Patch *root, const Leaves *leaves, const Sheet *s
     for (int v = 0; v < sheet->nvertices; v++) p->clearance[v] = PUSH_MARGIN * p->field.scale;
 }
 
-void push_rest(Push *p, const Sheet *sheet) {
+void push_rest(Push *p) {
     p->nsamples = 0;
-    find_points(p, sheet);
+    find_points(p);
 }
 
-void push_solve(Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
+void push_solve(Push *p, PushResult *result) {
     double moved = INFINITY;
     field_drop_spots(&p->field.dent);
     for (int round = 0; round < ROUNDS_MAX && moved >= REACH * p->field.scale; round++) {
-        find_samples(p, body, sheet);
-        moved = sweep_all(p, body, sheet, result); /* when it is less nobody can have come near who was not */
+        find_samples(p);
+        moved = sweep_all(p, result); /* when it is less nobody can have come near who was not */
     }
-    if (moved > 0) find_points(p, sheet);
+    if (moved > 0) find_points(p);
 }
 
 void push_vertex(Push *p, int vertex, Vec3 by, bool *capped) {
@@ -357,8 +360,8 @@ void push_vertex(Push *p, int vertex, Vec3 by, bool *capped) {
     p->point[vertex] = vec_add(p->global[vertex], field_limit(d, p->field.cap, capped));
 }
 
-void push_clear(const Push *p, const Sheet *sheet, bool *clear) {
-    for (int v = 0; v < sheet->nvertices; v++) clear[v] = p->near_known && near_clear(&p->near[v], p->point[v]);
+void push_clear(const Push *p, bool *clear) {
+    for (int v = 0; v < p->sheet->nvertices; v++) clear[v] = p->near_known && near_clear(&p->near[v], p->point[v]);
 }
 
 void push_keep(Push *p, int nvertices) {
@@ -373,15 +376,16 @@ void push_restore(Push *p) {
     memcpy(p->point, p->kept_point, (size_t)p->nkept * sizeof *p->point);
 }
 
-void push_measure(const Push *p, const BodyFrame *body, const Sheet *sheet, PushResult *result) {
+void push_measure(const Push *p, PushResult *result) {
     result->active = result->pinched = 0;
     result->displacement = 0;
     for (int k = 0; k < p->field.start[LATTICE_LEVELS]; k++) result->active += !field_is_zero(p->field.displacement[k]);
-    for (int v = 0; v < sheet->nvertices; v++)
+    for (int v = 0; v < p->sheet->nvertices; v++)
         result->displacement = fmax(result->displacement, vec_dist(p->point[v], p->global[v]));
     for (int k = 0; k < p->nsamples; k++) {
         const PushSample *s = &p->sample[k];
+        unsigned parts = movers(p, p->sheet->place[s->vertex]);
         bool pushed = s->budget >= 0;
-        result->pinched += pushed && body_frame_inside(body, movers(p, sheet->place[s->vertex]), p->point[s->vertex]);
+        result->pinched += pushed && body_frame_inside(p->body, parts, p->point[s->vertex]);
     }
 }

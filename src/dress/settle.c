@@ -30,13 +30,13 @@ static unsigned parts_near(const BodyFrame *body, BodyPoint *p, double far) {
 }
 
 /* For a part that it is worn over a vertex gets an offset, for one from outside its hollow becomes deeper there. */
-static void move(const Settler *s, Push *p, const Sheet *sheet, int vertex, Vec3 by, bool is_worn, bool *capped) {
+static void move(const Settler *s, Push *p, int vertex, Vec3 by, bool is_worn, bool *capped) {
     double most = OFFSET_MAX * p->field.scale;
     if (!is_worn) {
-        dent_add(&s->denter, p, sheet, vertex, by, most, capped);
+        dent_add(&s->denter, p, vertex, by, most, capped);
         return;
     }
-    int place = sheet->place[vertex];
+    int place = p->sheet->place[vertex];
     Vec3 offset = p->field.offset.at[place];
     Vec3 longer = field_limit(vec_add(offset, by), most, capped);
     push_vertex(p, vertex, vec_sub(longer, offset), capped);
@@ -45,7 +45,8 @@ static void move(const Settler *s, Push *p, const Sheet *sheet, int vertex, Vec3
 
 /* The step that takes a vertex at `at` out of a part; false where there is none to take. From a part that comes from
    outside, where the way into the garment is too far, it is the nearest one, and only as far as is free. */
-static bool step_out(const Push *p, const BodyFrame *body, EscapePoint *at, int part, Vec3 *step) {
+static bool step_out(const Push *p, EscapePoint *at, int part, Vec3 *step) {
+    const BodyFrame *body = p->body;
     Vec3 n, plain;
     double distance = body_point_distance(body, part, &at->point, at->clearance, &plain);
     double most = OFFSET_MAX * p->field.scale;
@@ -64,12 +65,12 @@ static bool step_out(const Push *p, const BodyFrame *body, EscapePoint *at, int 
     return way > 0;
 }
 
-static void settle_vertex(const Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, int vertex,
-                          bool *capped) {
+static void settle_vertex(const Settler *s, Push *p, int vertex, bool *capped) {
+    const BodyFrame *body = p->body;
     const Near *seen = &p->near[vertex];
     if (near_slack(seen->least, p->clearance[vertex]) > vec_dist(p->point[vertex], seen->seen)) return;
     EscapePoint at;
-    escape_at(&at, sheet->place[vertex], p->point[vertex], p->clearance[vertex]);
+    escape_at(&at, p->sheet->place[vertex], p->point[vertex], p->clearance[vertex]);
     at.near = parts_near(body, &at.point, at.clearance);
     bool moved = true;
     for (int step = 0; step < STEPS_MAX && moved; step++) {
@@ -77,21 +78,21 @@ static void settle_vertex(const Settler *s, Push *p, const BodyFrame *body, cons
         for (unsigned left = at.near; left; left &= left - 1) {
             int part = near_first(left);
             Vec3 by;
-            if (!step_out(p, body, &at, part, &by)) continue;
-            move(s, p, sheet, vertex, by, escape_is_own(&p->escape, body, at.place, part), capped);
+            if (!step_out(p, &at, part, &by)) continue;
+            move(s, p, vertex, by, escape_is_own(&p->escape, body, at.place, part), capped);
             body_point_move(&at.point, p->point[vertex]);
             moved = true;
         }
     }
 }
 
-void settle_all(Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, bool *capped) {
-    dent_all(&s->denter, p, body, sheet, capped);
-    for (int v = 0; v < sheet->nvertices; v++) settle_vertex(s, p, body, sheet, v, capped);
+void settle_all(Settler *s, Push *p, bool *capped) {
+    dent_all(&s->denter, p, capped);
+    for (int v = 0; v < p->sheet->nvertices; v++) settle_vertex(s, p, v, capped);
 }
 
-void settle_raised(const Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, bool *capped) {
-    for (int k = 0; k < s->nraised; k++) settle_vertex(s, p, body, sheet, s->raised[k], capped);
+void settle_raised(const Settler *s, Push *p, bool *capped) {
+    for (int k = 0; k < s->nraised; k++) settle_vertex(s, p, s->raised[k], capped);
 }
 
 static bool is_raised(const Push *p, int vertex) { return p->clearance[vertex] > PUSH_MARGIN * p->field.scale; }
@@ -105,8 +106,9 @@ bool settle_raise(Settler *s, Push *p, int vertex, double by, double most) {
 }
 
 /* Moves the corners of a hit by the least that takes its point as far off the part as it should be. */
-static void move_off(const Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit) {
-    int place = sheet->place[tester_hit_vertex(hit)];
+static void move_off(const Settler *s, Push *p, const TesterHit *hit) {
+    const BodyFrame *body = p->body;
+    int place = p->sheet->place[tester_hit_vertex(hit)];
     bool is_worn = escape_is_own(&p->escape, body, place, hit->part);
     double clearance = (is_worn ? JUST_CLEAR : 1) * PUSH_MARGIN * p->field.scale, norm2 = 0;
     EscapePoint at;
@@ -121,36 +123,36 @@ static void move_off(const Settler *s, Push *p, const BodyFrame *body, const She
         int v = hit->v[c];
         double by = way * hit->weight[c] / norm2;
         bool capped = false;
-        if (!is_worn) by = escape_free(&p->escape, body, sheet->place[v], p->point[v], clearance, n, by);
-        if (by > 0) move(s, p, sheet, v, vec_scale(n, by), is_worn, &capped);
+        if (!is_worn) by = escape_free(&p->escape, body, p->sheet->place[v], p->point[v], clearance, n, by);
+        if (by > 0) move(s, p, v, vec_scale(n, by), is_worn, &capped);
     }
 }
 
 /* A part that it is worn over takes cloth out of its hollow first; what is left waits until all corners are raised. */
-void settle_hit(Settler *s, Push *p, const BodyFrame *body, const Sheet *sheet, const TesterHit *hit) {
-    bool is_worn_over = p->field.lattice->fit->collide & part_bit(body, hit->part);
+void settle_hit(Settler *s, Push *p, const TesterHit *hit) {
+    bool is_worn_over = p->field.lattice->fit->collide & part_bit(p->body, hit->part);
     bool is_all_raised = true;
     for (int c = 0; c < hit->n; c++) {
-        if (is_worn_over) dent_back(&s->denter, p, sheet, hit->v[c]);
+        if (is_worn_over) dent_back(&s->denter, p, hit->v[c]);
         is_all_raised = is_all_raised && is_raised(p, hit->v[c]);
     }
-    if (is_all_raised) move_off(s, p, body, sheet, hit);
+    if (is_all_raised) move_off(s, p, hit);
 }
 
-void settle_mark(Settler *s, const Push *p, const Sheet *sheet) {
+void settle_mark(Settler *s, const Push *p) {
     dent_round(&s->denter);
     s->nmarked = s->nraised;
     for (int k = 0; k < s->nmarked && k < MARKED_MOST; k++) {
-        s->was_offset[k] = p->field.offset.at[sheet->place[s->raised[k]]];
-        s->was_dent[k] = p->field.dent.at[sheet->place[s->raised[k]]];
+        s->was_offset[k] = p->field.offset.at[p->sheet->place[s->raised[k]]];
+        s->was_dent[k] = p->field.dent.at[p->sheet->place[s->raised[k]]];
         s->was_point[k] = p->point[s->raised[k]];
     }
 }
 
-bool settle_restore(const Settler *s, Push *p, const Sheet *sheet) {
+bool settle_restore(const Settler *s, Push *p) {
     for (int k = 0; k < s->nmarked && s->nmarked <= MARKED_MOST; k++) {
-        field_set_spot(&p->field.offset, sheet->place[s->raised[k]], s->was_offset[k]);
-        field_set_spot(&p->field.dent, sheet->place[s->raised[k]], s->was_dent[k]);
+        field_set_spot(&p->field.offset, p->sheet->place[s->raised[k]], s->was_offset[k]);
+        field_set_spot(&p->field.dent, p->sheet->place[s->raised[k]], s->was_dent[k]);
         p->point[s->raised[k]] = s->was_point[k];
     }
     return s->nmarked <= MARKED_MOST;

@@ -8,8 +8,8 @@
 #include "base/clock.h"
 
 static const double FAR = 0.65;     /* of the cap: cloth displaced farther is far away */
-static const double CLOSER = 0.6;   /* if nothing shows after either of two, the new one is better only if its displacement
-                                       is below this share of the old one's */
+static const double CLOSER = 0.6;   /* if nothing shows after either of two outcomes, the new one is better only if its
+                                       displacement is below this share of the old one's */
 static const double THROWN = 2;     /* what shows counts (1 + this) times if the cloth is displaced up to the cap */
 static const double SLOW = 0.25;    /* metres a second on 1.70 m: speed of cloth for which no attempt finds room, */
 static const double DEEPER = 0.01;  /* unless the body would be this much deeper in it (metres on 1.70 m) */
