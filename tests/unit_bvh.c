@@ -33,6 +33,7 @@ static const Case counts[] = {
     {"fewer frames than announced", FRAMES("9") "1 2 3 4\n5 6 7 8\n", 2, "9 frames announced, but 2 found", 21, 1, 8},
     {"more frames than announced", FRAMES("1") "1 2 3 4\n5 6 7 8\n", 1, "values behind the 1 announced", 20, 1, 4},
     {"cut within the last line", FRAMES("3") "1 2 3 4\n5 6 7 8\n9 10", 2, "ends within frame 3 of 3", 21, 5, 8},
+    {"cut there, and the line ended", FRAMES("3") "1 2 3 4\n5 6 7 8\n9 10\n", 2, "ends within frame 3 of 3", 22, 1, 8},
     {"cut within a number", FRAMES("2") "1 2 3 4\n5 6 7 -", 1, "ends within frame 2 of 2", 20, 7, 4},
     {"cut within a frame's first number", FRAMES("2") "1 2 3 4\n-", 1, "ends within frame 2 of 2", 20, 1, 4},
     {"cut within an exponent", FRAMES("2") "1 2 3 4\n5 6 7 8e-", 1, "ends within frame 2", 20, 7, 4},

@@ -317,7 +317,7 @@ static bool refuse_value(Scan *c, NumberResult r, int column, Error *e) {
 static bool scan_frame(Scan *c, Error *e) {
     Stream *s = &c->o->in;
     for (int i = 0; i < c->o->motion->skeleton.nchannels; i++) {
-        if (stream_space(s)) {
+        if (stream_space(s) && !stream_ended(s)) {
             if (c->lines.current) end_line(&c->lines);
             c->lines.start = stream_mark(s);
         }
