@@ -7,15 +7,15 @@
 
 #include <pthread.h>
 
-/* How far a vertex of the skin has to give way, and its distance from the part where nothing presses: next to
-   nothing. Private. */
+/* Private. How far a vertex of the skin gives way, and its measured distance from its part where nothing presses (about
+   0); metres. */
 typedef struct { double by, level; } Give;
 
-/* Boxes over the edges and triangles of every part's skin. Many parts are far from any garment: theirs are made when
-   somebody asks, and garments may be dressed by several threads. */
+/* Private. Boxes over the edges and triangles of each part's skin. They are made on demand, since many parts are far
+   from any garment; by one thread at a time, since several may dress garments on this body. */
 typedef struct {
     pthread_mutex_t making;
-    unsigned made;                 /* bits 1 << part */
+    unsigned made;                 /* those of which parts: bits 1 << part */
     CrossingSet edges[BODY_PARTS_MAX], triangles[BODY_PARTS_MAX];
 } BodyBoxes;
 
@@ -24,18 +24,18 @@ typedef struct {
     Vectors vectors;               /* to measure many distances with */
     double unit;                   /* output units per metre */
     Pose pose;
-    Vec3 *position, *normal;       /* skin.nvertices, and room for as many normals of creases;
-                                      positions in output units, snapped to the precision of the
-                                      text, so that what a reader of the file sees is what was
-                                      tested */
+    Vec3 *position, *normal;       /* of the skin's vertices; room for as many normals of creases. Positions in output
+                                      units, rounded to the precision of the text, so that what a reader of the file
+                                      gets is what was tested */
     Rigid to_part[BODY_PARTS_MAX]; /* world (metres) -> part frame */
     Mat3 to_world[BODY_PARTS_MAX]; /* part frame -> world, directions */
-    Box box[BODY_PARTS_MAX];       /* of each part; world, metres; a little larger than it */
-    Box *block;                    /* of every sixteen vertices of a part's skin before anything pressed on it */
+    Box box[BODY_PARTS_MAX];       /* round each part, a little larger; world, metres */
+    Box *block;                    /* round every sixteen vertices of a part's skin, before it gave way; see
+                                      body_frame_blocks */
     Contacts contacts[BODY_PARTS_MAX]; /* what each part gives way to in this pose */
-    double room;                   /* that parts leave between them, metres */
+    double room;                   /* YIELD_ROOM of this body, metres */
     Give *give;                    /* per vertex of the skin */
-    Box skin[BODY_PARTS_MAX];      /* of its skin, where it has given way */
+    Box skin[BODY_PARTS_MAX];      /* round each part's skin, with what has given way; world, metres */
     BodyBoxes *boxes;              /* private */
     double seconds;                /* that posing took */
 } BodyFrame;
@@ -47,18 +47,18 @@ static inline Vec3 body_frame_rest_normal(const BodyFrame *f, const BodyPart *pa
     return mat_apply(f->pose.bone[part->role].r, f->body->skin.normal[vertex]);
 }
 
-/* Signed distance (metres) of a world point from a part, which has given way; *normal, if not NULL, in the world.
-   See body_distance for `far`. */
+/* Signed distance (metres) of a world point from a part that has given way; *normal, if not NULL, in the world. See
+   body_distance for `far`. */
 double body_frame_distance(const BodyFrame *f, int part, Vec3 p, double far, Vec3 *normal);
 
-/* Of n points, `far` where that is less. */
+/* The same, or `far` where that is less, of n points. */
 void body_frame_distances(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance);
 
-/* A world point that several parts are asked about, or one more than once, as happens where they press on each other:
-   what a part says of it without the others is found once. */
+/* A world point that several parts are asked about, or one part several times, as happens where they press on each
+   other. What was computed is kept. Set it by body_point_move. */
 typedef struct {
     Vec3 at;
-    unsigned known;                /* parts (bits 1 << part) that have been asked; private */
+    unsigned known;                /* private: parts that were asked, bits 1 << part */
     BodyLook look[BODY_PARTS_MAX];
 } BodyPoint;
 static inline void body_point_move(BodyPoint *p, Vec3 to) {
@@ -66,10 +66,10 @@ static inline void body_point_move(BodyPoint *p, Vec3 to) {
     p->known = 0;
 }
 
-/* body_frame_distance of it, */
+/* body_frame_distance of such a point. */
 double body_point_distance(const BodyFrame *f, int part, BodyPoint *p, double far, Vec3 *normal);
 
-/* and from a part as it is where nothing presses on it: never more than that, and cheaper. For many points too;
+/* Its distance from a part as if nothing pressed on it: at most the other one, and cheaper. Also for n points;
    normal may be NULL. */
 double body_point_unpressed(const BodyFrame *f, int part, BodyPoint *p, double far);
 void body_frame_unpressed_many(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance,
@@ -79,18 +79,19 @@ void body_frame_unpressed_many(const BodyFrame *f, int part, const Vec3 *p, int 
 bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p);
 bool body_frame_any_inside(const BodyFrame *f, unsigned parts, const Vec3 *p, int n);
 
-/* The boxes over a part's skin, if its own comes near to `cloth`; both in output units. Else NULL. */
+/* The boxes over the edges or triangles of a part's skin; NULL if the skin does not touch the box `cloth`, output
+   units. */
 const CrossingSet *body_frame_edges(const BodyFrame *f, int part, Box cloth);
 const CrossingSet *body_frame_triangles(const BodyFrame *f, int part, Box cloth);
 
-/* Is p farther than `far` from a part for certain? A cheap question before the exact one. */
+/* Is p farther than `far` from a part for certain? By its box: a cheap test before a distance is measured. */
 static inline bool body_frame_far(const BodyFrame *f, int part, Vec3 p, double far) {
     const Box *b = &f->box[part];
     return p.x < b->low.x - far || p.x > b->high.x + far || p.y < b->low.y - far || p.y > b->high.y + far ||
            p.z < b->low.z - far || p.z > b->high.z + far;
 }
 
-/* Where the boxes round a part's vertices begin. */
+/* The boxes round each BODY_BLOCK vertices of a part's skin. */
 enum { BODY_BLOCK = 16 };
 static inline Box *body_frame_blocks(const BodyFrame *f, int part) {
     return f->block + f->body->part[part].first_vertex / BODY_BLOCK + part;

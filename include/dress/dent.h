@@ -1,16 +1,17 @@
-/* Hollows that arms press into a garment. */
+/* Hollows that arms press into a garment. A vertex in a hollow has a dent: the vector by which it is pressed in
+   (Field.dent). */
 #ifndef DRESS_DENT_H
 #define DRESS_DENT_H
 
 #include "dress/push.h"
 
-/* A vertex that an arm has to get past. */
+/* A vertex that an arm presses in, and the hollow round it. */
 typedef struct {
     Vec3 at;
-    double depth, radius; /* how far it is pressed in, and how far about its hollow goes; metres */
+    double depth, radius; /* of the hollow, metres */
 } Presser;
 
-/* Some that follow each other: where they stand, and the most that any of them is deep and wide. */
+/* Pressers of vertices that follow each other: the box round them, and the largest depth and radius. */
 enum { PRESSERS_A_BLOCK = 16 };
 typedef struct {
     const Presser *presser;
@@ -21,42 +22,43 @@ typedef struct {
 
 typedef struct {
     int nplaces;          /* of the lattice */
-    bool is_off;          /* nothing is pressed in: it did harm in an attempt before */
-    Presser *presser;
+    bool is_off;          /* press nothing in, since that did harm in an earlier attempt */
+    Presser *presser;     /* of all arms */
     int npressers;
     PresserBlock *block;
     int nblocks;
-    Vec3 *way;            /* per vertex: in which direction it is pressed in, */
-    double *depth;        /* and how far; */
-    int *slope;           /* the edges of the sheet where it is */
-    Vec3 *hollow;         /* per vertex: how far it was pressed in, not counting single vertices */
-    FieldSpots held;      /* what is left of the hollows of the frame that this one goes on from */
-    double *spare;        /* per place: metres more that the hollow keeps from what it is worn over, for between its
-                             vertices it would go through that */
+    Vec3 *way;            /* per vertex: the direction in which it is pressed in (unit), */
+    double *depth;        /* and how far, metres */
+    int *slope;           /* edges of the sheet in and round the hollows */
+    Vec3 *hollow;         /* per vertex: its dent as dent_all has set it */
+    FieldSpots held;      /* the dents of the frame that this one goes on from, faded */
+    double *spare;        /* per place: extra clearance from own parts (metres), where an edge between the hollow's
+                             vertices crossed one */
     bool any_spare;
-    bool *is_back;        /* per place: taken back in this round; */
-    int *back, nback;     /* the places that are */
+    bool *is_back;        /* per place: was it taken back in this round? */
+    int *back, nback;     /* the places that were */
 } Denter;
 
 MUST_CHECK bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e);
 
-/* Takes the hollows of a frame along that is dt seconds old. goes_on: whether the frame of `body` goes on from it. */
+/* Takes over the dents of a frame that is dt seconds old. goes_on: does the frame of `body` go on from it? */
 void dent_carry(Denter *d, const Field *last, const BodyFrame *body, double dt, bool goes_on);
 
-/* Begins anew: hollows may be as deep as there is room. */
+/* Begins an attempt: nothing was taken back yet. */
 void dent_start(Denter *d);
 
-/* Begins a round, in which a vertex is taken back once at most. */
+/* Begins a round of an attempt. A vertex is taken back at most once in each. */
 void dent_round(Denter *d);
 
-/* Presses the cloth in that arms which touch it have to get past, with what is round it; only as far as there is room
-   in front of what it is worn over. *capped becomes true where a cap kept it from going farther. */
+/* Presses hollows where arms touch the cloth, as far as the own parts leave room. *capped becomes true if a cap kept a
+   vertex from going farther. */
 void dent_all(Denter *d, Push *p, bool *capped);
 
-/* Moves a single vertex by so much more, at most that far from where its hollow is. */
+/* Adds a vector to the dent of a single vertex, which then differs by at most `most` metres from what dent_all has
+   set. */
 void dent_add(const Denter *d, Push *p, int vertex, Vec3 by, double most, bool *capped);
 
-/* Takes a vertex back out of its hollow, the farther the more often it is asked, and keeps it from there. */
+/* Makes the dent of a vertex shallower, by more each time in an attempt, and keeps it so: an own part shows there. */
 void dent_back(Denter *d, Push *p, int vertex);
 
 #endif

@@ -1,5 +1,18 @@
-/* One frame from end to end: a garment on a moving body. Read frame.c from top to bottom and
-   you know the method. */
+/* One frame from end to end: a garment on a moving body. Read frame.c from top to bottom and you know the method.
+
+   Words of this floor:
+     worn over     A garment is worn over some parts of the body (`collide` in its file): its own parts. All other
+                   parts, such as arms for a skirt, come to it from outside: it gives way to them, but not so far that
+                   an own part shows.
+     global shape  The surface as it follows the pose, before the body pushes it.
+     place         A point of the garment's surface that any mesh may use as a vertex (dress/lattice).
+     level vertex  A corner of the quadtree's cells of a level. It carries one vector of the displacement field.
+     clearance     The distance that a vertex has to keep from the body: PUSH_MARGIN, and more where it was raised,
+                   because an edge or triangle beside it still crossed the body.
+     sweep         One pass of the solver over the samples, the vertices near the body.
+     offset, dent  What a single vertex is moved beside the field: out of its own parts, or into the garment where an
+                   arm presses a hollow.
+     pinched       Between parts that overlap, where no cloth fits. */
 #ifndef DRESS_FRAME_H
 #define DRESS_FRAME_H
 
@@ -17,7 +30,7 @@ typedef struct {
     int detail;           /* facets per side of a root patch; 0 = the garment's, else 8 */
     int depth;            /* levels of splitting, 1..3; 0 = 2 */
     bool fixed_topology;  /* one grid over every root patch in every frame; not for METHOD_PAPER */
-    bool plain_tests;     /* also classify without culling, for plain_s */
+    bool plain_tests;     /* also classify without culling, to fill plain_s */
 } DressOptions;
 
 /* What happened in one frame, a row of stats.csv. Lengths in metres. */
@@ -42,9 +55,10 @@ typedef struct {
 
 /* What a frame has to do with the one before it. */
 typedef enum {
-    TIE_GOES_ON, /* its cloth goes on from there */
+    TIE_GOES_ON, /* it takes over the displacement */
     TIE_AFRESH,  /* nothing: it is the first, or the figure has jumped */
-    TIE_ASTRAY   /* nothing, and the next one that goes on does so from the last that was not astray */
+    TIE_ASTRAY   /* nothing: a frame or few that do not belong to the motion; the next one that goes on takes over from
+                    the last frame before them */
 } Tie;
 
 /* A garment on a figure with the state that is carried from frame to frame. */

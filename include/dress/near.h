@@ -1,16 +1,16 @@
-/* Which parts are near which vertex of a sheet, and how near: found for sixteen vertices at a time, and good for
-   some way that they move. */
+/* Which parts of the body are near each vertex of a sheet, and how near. As distances change no faster than a vertex
+   moves, what was found stays of use for some way. */
 #ifndef DRESS_NEAR_H
 #define DRESS_NEAR_H
 
 #include "dress/tessellate.h"
 
-/* A point and the parts near it. Distances are those where nothing presses on the parts, or less: what has given
-   way is no nearer. */
+/* A point and the parts near it. Distances are at most the true ones: those of parts that give way are measured as if
+   nothing pressed on them. */
 typedef struct {
     Vec3 seen;                      /* the point that all this holds for */
-    unsigned parts;                 /* near: bits 1 << part */
-    float least;                    /* their least distance; what it was asked for where there is none */
+    unsigned parts;                 /* the parts near it: bits 1 << part */
+    float least;                    /* the least of their distances; the limit of the search if there are none */
     float distance[BODY_PARTS_MAX]; /* of those in `parts` */
 } Near;
 
@@ -18,26 +18,26 @@ typedef struct {
        for (unsigned left = parts; left; left &= left - 1) ... near_first(left) ... */
 static inline int near_first(unsigned parts) { return __builtin_ctz(parts); }
 
-/* Fills near[v] for all vertices, the n-th at point[n], with the parts that are nearer than `far`. known: those
-   that stand where they were seen stay. */
+/* Fills near[v] for every vertex v, at point[v], with the parts that are nearer than `far`. known: what is known of
+   vertices that have not moved since is kept. */
 void near_find(Near *near, const BodyFrame *body, const Sheet *sheet, const Vec3 *point, double far, bool known);
 
 /* Those of near->parts that have one of the roles (bits 1 << role). */
 unsigned near_parts(const Near *near, const BodyFrame *body, unsigned roles);
 
-/* Does no part hold p for certain? A guess would not do: distances are never more than half too long
-   (tests/unit_body.c), and only a half of them is trusted. */
+/* Is p outside of all parts for certain? Measured distances are at most one and a half times the true
+   ones (tests/unit_body.c), so half of them is trusted. */
 bool near_clear(const Near *near, Vec3 p);
 
-/* How far the point may go before a part at `distance` can be nearer than `clearance`. */
-#define NEAR_LIPSCHITZ 0.8 /* distances change no faster than the point moves; they are of first order, so no more
-                              than this share of a slack is trusted */
+/* How far a point may go before a part at `distance` can be nearer than `clearance`. True distances change no faster
+   than the point moves; measured ones are of first order, so only this share of the difference is trusted. */
+#define NEAR_LIPSCHITZ 0.8
 static inline double near_slack(double distance, double clearance) { return NEAR_LIPSCHITZ * (distance - clearance); }
 
-/* The point is at p now. Parts may have come nearer by as much as it has gone. */
+/* The point is at p now: makes all distances smaller by as much as it has gone. */
 void near_move(Near *near, Vec3 p);
 
-/* Finds the least distance anew. */
+/* Sets `least` from the distances; `far` if there are none. */
 void near_sum(Near *near, double far);
 
 #endif

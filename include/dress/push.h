@@ -1,4 +1,4 @@
-/* Local deformation: the body pushes the cloth out, the surface as a whole. */
+/* Local deformation of the surface as a whole: the body pushes the cloth out of itself. */
 #ifndef DRESS_PUSH_H
 #define DRESS_PUSH_H
 
@@ -7,24 +7,26 @@
 #include "dress/near.h"
 #include "dress/surface.h"
 
-/* The unknowns that move the places of a cell of the deepest level: four level vertices of each level, by their
-   numbers in Field.displacement, and how many levels have any that may move; and for one coordinate of a place how
-   those at its two ends weigh. The weight of vertex 2 x + y is that of x along u times that of y along w. Private, as
-   are samples. */
+/* Private. What moves the places of a cell of the deepest level: on each level four unknowns (level vertices, by their
+   numbers in Field.displacement). levels: on how many levels there are any that may move. */
 typedef struct { int unknown[LATTICE_LEVELS][4], levels; } PushCell;
+
+/* Private. For one coordinate of a place, u or w: the weights of a cell's two ends, on each level. The weight of
+   unknown 2 x + y is that of end x along u times that of end y along w. */
 typedef struct { double weight[LATTICE_LEVELS][2]; } PushAlong;
 
-/* A mesh vertex near the body. */
+/* Private. A mesh vertex near the body. */
 typedef struct {
     int vertex, patch;
     const PushCell *cell;             /* what moves it, */
-    const PushAlong *u, *w;           /* and by how much */
-    double spent, budget;             /* push issued in this frame, and its limit; metres */
-    Vec3 net;                         /* their sum */
-    Near near;                        /* parts worth asking, and where it was when they were last asked, */
-    unsigned asked;                   /* as those of these were where they give way; */
-    double travelled;                 /* what it had gone at most by then (Push.travel), */
-    double patch_travelled;           /* and its patch */
+    const PushAlong *u, *w;           /* and with which weights */
+    double spent, budget;             /* sum of the lengths of its pushes in this solution, and its limit; metres.
+                                         budget < 0: it was not pushed yet */
+    Vec3 net;                         /* sum of its pushes */
+    Near near;                        /* the parts near it, and where it was when they were last asked */
+    unsigned asked;                   /* those of these that give way and were asked (bits 1 << part) */
+    double travelled;                 /* value of the bound on its own travel when they were last asked, */
+    double patch_travelled;           /* and of Push.patch_travel of its patch */
 } PushSample;
 
 /* The displacement and the solver's memory. */
@@ -35,31 +37,31 @@ typedef struct {
     Escape escape;
     Surface surface;
     Field field;
-    Field kept;                       /* of another attempt, */
-    Vec3 *kept_point;                 /* and where it left the vertices */
+    Field kept;                       /* push_keep: the field of another attempt, */
+    Vec3 *kept_point;                 /* and where it left its vertices */
     int nkept;
     PushCell *cell;                   /* [patch][a][b] of the deepest level */
     PushAlong *along;                 /* per lattice coordinate, 0..side */
-    double coarser;                   /* how far a level is moved against the next finer one, which moves less
-                                         cloth: in (0, 1]. Set it before push_start */
-    double *mobility;                 /* per level vertex: how willingly it moves in this frame */
+    double coarser;                   /* how far a level is moved against the next finer one, in (0, 1]: a coarser level
+                                         moves more cloth. Set it before push_start */
+    double *mobility;                 /* per level vertex: its share of a move, against that of a free one; 0: fixed */
     double *travel;                   /* per level vertex: metres moved since the samples were found, */
-    double *patch_travel;             /* and per patch the most that anything on it can have; */
-    int *first_neighbour, *neighbour; /* for what moves a patch moves those that share a corner with it */
+    double *patch_travel;             /* per patch: a bound on what anything on it has moved since then */
+    int *first_neighbour, *neighbour; /* of each patch those that share a corner with it, and so its unknowns */
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
-    double *clearance;                /* per mesh vertex: distance asked for, */
-    double slack;                     /* of which this share may be missing in this sweep */
-    bool takes_back;                  /* do samples take pushes back in this sweep? */
+    double *clearance;                /* per mesh vertex: the distance that it has to keep, metres */
+    double slack;                     /* share of the clearance that may be missing in this sweep */
+    bool takes_back;                  /* may samples take their pushes back in this sweep? */
     double taken;                     /* the most that one of them has taken back in it, metres */
-    Near *near;                       /* per mesh vertex */
-    bool near_known;                  /* since the frame or the sheet changed */
+    Near *near;                       /* per mesh vertex: the parts near it */
+    bool near_known;                  /* is `near` filled for this frame and this sheet? */
     PushSample *sample;
     int nsamples;
 } Push;
 
 typedef struct {
-    int sweeps, active, pinched;
-    double displacement;              /* largest move from the global shape */
+    int sweeps, active, pinched;      /* as in FrameStats */
+    double displacement;              /* largest move from the global shape, metres */
     bool capped;
 } PushResult;
 
@@ -69,24 +71,24 @@ MUST_CHECK bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Erro
    speaks of this body, these root patches and this sheet, which must stay where they are. */
 void push_start(Push *p, const BodyFrame *body, const Patch *root, const Leaves *leaves, const Sheet *sheet);
 
-/* Displaces the vertices of the sheet until they keep their clearance, but for what is left to dress/settle:
-   projection onto half spaces, in sweeps. May be called again, with other clearances; adds to *result. */
+/* Displaces the surface until the vertices keep their clearance, but for the last bit, which is left to
+   dress/settle. May be called again, with other clearances. Adds to *result. */
 void push_solve(Push *p, PushResult *result);
 
-/* Moves a single vertex by so much more; no farther from the global shape than the cap. */
+/* Moves a single vertex by a vector, but no farther from the global shape than the cap. */
 void push_vertex(Push *p, int vertex, Vec3 by, bool *capped);
 
-/* Instead of solving: leaves the sheet where the field has it. */
+/* Instead of push_solve: puts the vertices where the field has them. */
 void push_rest(Push *p);
 
-/* Fills what the solution amounts to: active, pinched, displacement. */
+/* Fills active, pinched and displacement of *result. */
 void push_measure(const Push *p, PushResult *result);
 
-/* Per mesh vertex whether it is known to be outside of all parts. */
+/* clear[v]: is vertex v known to be outside of all parts? */
 void push_clear(const Push *p, bool *clear);
 
-/* Keeps a solution of that many vertices, to take it back, with the sheet that it was made for, after
-   another attempt. */
+/* push_keep stores a solution with its vertices, push_restore returns to it after another attempt. The sheet must then
+   be that of the first one again. */
 void push_keep(Push *p, int nvertices);
 void push_restore(Push *p);
 

@@ -1,5 +1,5 @@
-/* The last millimetres: single vertices that the sweeps left too near to the body, or whose facets still cut it, are
-   moved by offsets of their own. */
+/* The last millimetres: vertices that the sweeps left too near to the body, or whose edges and triangles still cross
+   it, are moved one by one. */
 #ifndef DRESS_SETTLE_H
 #define DRESS_SETTLE_H
 
@@ -8,10 +8,9 @@
 
 enum { MARKED_MOST = 1024 };
 
-/* Mesh vertices that were asked for more clearance than all others, and where they were when they were marked. */
 typedef struct {
-    int *raised, nraised;
-    int nmarked; /* of them; where there are more than MARKED_MOST, nothing is remembered */
+    int *raised, nraised; /* mesh vertices that have to keep more clearance than all others */
+    int nmarked;          /* how many of these settle_mark found; of more than MARKED_MOST nothing is remembered */
     Vec3 was_offset[MARKED_MOST], was_dent[MARKED_MOST], was_point[MARKED_MOST];
     Denter denter;
 } Settler;
@@ -21,20 +20,20 @@ MUST_CHECK bool settle_reserve(Settler *s, const Lattice *lattice, Arena *arena,
 /* Begins anew: nothing is raised. */
 void settle_start(Settler *s);
 
-/* Moves all vertices of a sheet that are too near to a part, or those of them that were raised. *capped becomes true
-   where that takes more than a single vertex may be moved. */
+/* Moves all vertices that are too near to a part, or those of them that were raised. *capped becomes true if that takes
+   more than a single vertex may be moved. */
 void settle_all(Settler *s, Push *p, bool *capped);
 void settle_raised(const Settler *s, Push *p, bool *capped);
 
-/* Asks for `by` more clearance at a vertex, up to `most` more than others have (metres on 1.70 m). Returns false
-   where it has as much. */
+/* Raises a vertex: adds `by` to its clearance, up to `most` more than others have (metres on 1.70 m). Returns false
+   if it has as much already. */
 bool settle_raise(Settler *s, Push *p, int vertex, double by, double most);
 
-/* Chords can cut the body although their ends are outside. Moves the vertices of a hit, if all were raised, by
-   the least that takes its point out of the part. */
+/* An edge or triangle can cross the body although its vertices are outside. Moves the vertices of such a hit by the
+   least that takes the point where it crosses out of the part. Does so only if all of them were raised before. */
 void settle_hit(Settler *s, Push *p, const TesterHit *hit);
 
-/* Remembers where the raised vertices are, and puts them back there; false where there were too many. */
+/* Remembers where the raised vertices are, and puts them back there. False if there were too many. */
 void settle_mark(Settler *s, const Push *p);
 bool settle_restore(const Settler *s, Push *p);
 

@@ -1,5 +1,5 @@
-/* What is asked of a posed body: distances from its parts, each with what the others press on it (dress/yield), and
-   boxes over its skin. Most questions end at a box. */
+/* What a posed body is asked: distances from its parts, which give way to each other (dress/yield), and boxes over its
+   skin. Most questions are answered by a part's bounding box alone. */
 #include "dress/bodyframe.h"
 
 #include "geometry/boxtree.h"
@@ -35,14 +35,13 @@ static double distance_in_box(const BodyFrame *f, int part, BodyPoint *p, double
     return d;
 }
 
-/* Distance from a part as it is without others. Most questions end at the box, so that much is inline. */
+/* Distance from a part as if nothing pressed on it. The test against its box is inline, since it answers most calls. */
 static inline double own_distance(const BodyFrame *f, int part, BodyPoint *p, double far, Vec3 *normal) {
     return body_frame_far(f, part, p->at, far) ? far : distance_in_box(f, part, p, far, normal);
 }
 
-/* How far a part gives way at a point that is m->distance away from it, to the contact that asks for most; *normal, if
-   not NULL, becomes that of what is left of it. Farther away than the room that parts leave to each other the other is
-   never asked. */
+/* How far a part gives way at a point that is m->distance away from it: to the contact that asks for most. *normal,
+   if not NULL, becomes the part's normal after that. */
 static double give_way(const BodyFrame *f, int part, BodyPoint *p, Meeting *m, Vec3 *normal) {
     const Contacts *contacts = &f->contacts[part];
     double far = f->room - m->distance, most = 0;
@@ -97,7 +96,7 @@ bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p) {
     return false;
 }
 
-/* Most are far enough where nothing presses on the part, and the others are asked again one by one. */
+/* Most points are beyond `far` even if nothing pressed on the part; the others are measured again one by one. */
 void body_frame_distances(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance) {
     body_frame_unpressed_many(f, part, p, n, far, distance, NULL);
     for (int i = 0; i < n && f->contacts[part].n > 0; i++)
@@ -127,7 +126,7 @@ bool body_frame_any_inside(const BodyFrame *f, unsigned parts, const Vec3 *p, in
     return false;
 }
 
-/* The boxes of a part, made where they are not yet; NULL where nobody needs them. */
+/* The boxes of a part, made if they are not yet; NULL if its skin does not touch `cloth`. */
 static const BodyBoxes *boxes_near(const BodyFrame *f, int part, Box cloth) {
     const BodyPart *p = &f->body->part[part];
     const Mesh *skin = &f->body->skin;

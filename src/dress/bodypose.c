@@ -1,11 +1,11 @@
-/* Posing the body: its parts to the world, each lets the others press on it (dress/flesh), and what is then
-   its skin goes to the precision of the text. */
+/* Posing the body: its parts are moved to the world, their skin gives way to other parts that press on it
+   (dress/flesh), and is rounded to the precision of the text. */
 #include "dress/bodypose.h"
 
 #include "base/clock.h"
 #include "dress/flesh.h"
 
-/* Facets are chords of the skin, which bulges out of their box by less than this share of it. */
+/* Facets are chords of the surface, which bulges out of their box by less than this share of its diagonal. */
 static const double BULGE = 0.02;
 
 static void find_box(BodyFrame *f, int part) {

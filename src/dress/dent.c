@@ -1,11 +1,14 @@
-/* An arm that lies on a skirt, or hangs into it, presses a hollow. In the sweeps it would fight with the legs, for
-   displacements that make room for the one take it from the others. So it comes after them, and they win.
+/* An arm that lies on a skirt, or hangs into it, presses a hollow. If arms pushed in the sweeps, they would fight
+   with the legs: a displacement that makes room for the one takes it from the other. So arms come after the sweeps,
+   and own parts win.
 
-   An arm that touches the cloth anywhere presses one way: into the garment, but not along itself, for that would only
-   carry the cloth down the arm. All cloth of that side that has the arm in it, or behind it already, goes past it, as
-   far as there is room in front of what it is worn over. Cloth round about goes along, the less the farther away it is;
-   and no step is so steep that it would look like a spike or fold over. All of that changes little where the pose
-   changes little. What still jumps is where room ends, so a hollow is pressed deeper at once, but fills with time. */
+   Each arm that touches the cloth presses in one direction: into the garment, but not along the arm, which would
+   only carry the cloth down. All cloth on that side that is in the arm, or outside of it, is moved until the arm is
+   behind it, as far as the own parts leave room. Cloth round about moves too, less with distance, and the hollow's
+   sides are made so flat that they neither look like a spike nor fold over.
+
+   All of this changes little if the pose changes little, except where the room ends. So a hollow gets deeper at
+   once, but fills again slowly (dent_carry). */
 #include "dress/dent.h"
 
 #include <stdlib.h>
@@ -15,15 +18,17 @@
 #include "geometry/boxtree.h"
 
 enum { STEPS_BACK = 24, LEVEL_ROUNDS = 40 };
-static const double MEETS = 0.05;              /* share of the clearance that may be missing where cloth meets an arm */
+static const double MEETS = 0.05;              /* share of the clearance that may be missing between cloth and arm */
 static const double WIDE = 0.05, WIDENS = 1.2; /* radius of a hollow: metres on 1.70 m, and this times its depth */
-static const double FACES = 0.5;    /* cosine of cloth to the way of an arm, from which on it is pressed in fully */
-static const double STEEP = 2;      /* a hollow's sides: metres inwards per metre of cloth; */
-static const double SHRINKS = 0.8;  /* and where cloth goes towards its neighbour, that share of their distance */
-static const double CHORD = 0.03;   /* share of its depth that a hollow stops short: its facets cut across the round */
-static const double POINTED = 0.3;  /* squared sine between arm and way: below that the arm pokes rather than lies */
-static const double BACK = 0.005;   /* metres on 1.70 m: first step out of a hollow; */
-static const double MOST_BACK = 0.03; /* after so much it is given up */
+static const double FACES = 0.5;      /* cosine between a vertex's inward normal and the arm's direction, from which on
+                                         it is pressed in fully */
+static const double STEEP = 2;        /* of a hollow's sides: difference of depths per distance of two neighbours; */
+static const double SHRINKS = 0.8;    /* if that moves one towards the other, at most this share of their distance */
+static const double CHORD = 0.03;     /* share of its depth added to the clearance: facets cut across a round hollow */
+static const double POINTED = 0.3;    /* squared sine between forearm and direction: below it the arm pokes the cloth,
+                                         rather than lies on it */
+static const double BACK = 0.005;     /* metres on 1.70 m that a vertex is taken back the first time; */
+static const double MOST_BACK = 0.03; /* after so much in all it is no longer pressed in */
 
 bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e) {
     *d = (Denter){.nplaces = lattice->nplaces};
@@ -61,15 +66,15 @@ void dent_round(Denter *d) {
     d->nback = 0;
 }
 
-/* ARM_LEFT, ARM_RIGHT, or anything else. */
+/* The arm that a part belongs to: ARM_LEFT, ARM_RIGHT, or something else for parts of no arm. */
 static int arm_of(const BodyFrame *body, int part) { return role_limb(body->body->part[part].role) - 1; }
 
-/* The way from the global shape of a place into the garment. */
+/* The inward unit normal of the global shape at a place. */
 static Vec3 inwards(const Push *p, int place) {
     return vec_scale(lattice_normal(p->field.lattice, p->escape.root, place), -1);
 }
 
-/* Parts of arms that a garment is not worn over, bits 1 << part. Others come from inside, as feet and neck do. */
+/* The parts of arms that the garment is not worn over, bits 1 << part. */
 static unsigned bare_arms(const Push *p) {
     const BodyFrame *body = p->body;
     unsigned parts = 0;
@@ -80,14 +85,15 @@ static unsigned bare_arms(const Push *p) {
     return parts;
 }
 
-/* Of the arms that touch the cloth: their bare parts (bits 1 << part), and the way in which each presses (unit). */
+/* What touches the cloth, for each arm. */
 typedef struct {
-    unsigned parts[ARMS];
-    Vec3 way[ARMS];
-    Box before[ARMS];      /* what may have them in its way */
+    unsigned parts[ARMS];  /* its bare parts, bits 1 << part; 0 if it touches nothing */
+    Vec3 way[ARMS];        /* the direction in which it presses, unit */
+    Box before[ARMS];      /* holds all cloth that it may press in */
 } Touch;
 
-/* Adds what a vertex is too near to: the nearer the more its way into the garment counts. */
+/* Adds the parts that a vertex is too near to. Its inward normal counts for their direction, weighted by what is
+   missing of its clearance. */
 static void add_touch(Touch *t, const Push *p, int vertex, unsigned parts) {
     const BodyFrame *body = p->body;
     double clearance = PUSH_MARGIN * p->field.scale;
@@ -104,7 +110,8 @@ static void add_touch(Touch *t, const Push *p, int vertex, unsigned parts) {
     }
 }
 
-/* The way of an arm without what leads along it; one that stands straight on the cloth pokes it. */
+/* The direction of an arm, made perpendicular to the forearm; but not if the arm stands straight on the cloth and pokes
+   it. */
 static Vec3 across_arm(const BodyFrame *body, int arm, Vec3 way) {
     static const Role forearm[ARMS] = {ROLE_LEFT_FOREARM, ROLE_RIGHT_FOREARM};
     int part = body->body->of_role[forearm[arm]];
@@ -114,7 +121,7 @@ static Vec3 across_arm(const BodyFrame *body, int arm, Vec3 way) {
     return vec_unit_or(vec_mad(way, along, -c * smoothstep(0, POINTED, 1 - c * c)), way);
 }
 
-/* All of an arm presses where a part of it touches. */
+/* Completes what is known of an arm that touches: if one part of it does, all bare parts press. */
 static void complete(Touch *t, const Push *p, int arm, unsigned bare) {
     const BodyFrame *body = p->body;
     double clearance = PUSH_MARGIN * p->field.scale;
@@ -145,7 +152,7 @@ static Touch find_touch(const Push *p) {
     return t;
 }
 
-/* Leaves of from..to along at + t n what lies between two planes across an axis. */
+/* One axis of a ray at + t n: cuts the interval from..to of t down to where the ray is between low and high. */
 static void clip(double at, double n, double low, double high, double *from, double *to) {
     if (n == 0) {
         if (at < low || at > high) *to = -1;
@@ -156,8 +163,8 @@ static void clip(double at, double n, double low, double high, double *from, dou
     if (leaves < *to) *to = leaves;
 }
 
-/* How far cloth at `at` has to go along n to have all of a part behind it: from where the part's box ends, or `most`,
-   it comes back until it meets the part. 0: the part is not in its way. */
+/* How far cloth at `at` has to go along n until a part is behind it: steps back from where the ray leaves the part's
+   box, or from `most`, until it meets the part. 0: the ray does not meet it. */
 static double way_past(const BodyFrame *body, int part, Vec3 at, Vec3 n, double clearance, double most) {
     const Box *b = &body->box[part];
     double from = 0, way = most;
@@ -172,11 +179,11 @@ static double way_past(const BodyFrame *body, int part, Vec3 at, Vec3 n, double 
     return 0;
 }
 
-/* How much cloth that faces `inwards` minds an arm that presses along n, 0 to 1: what is on the other side of the
-   garment does not. */
+/* From 0 to 1: how far cloth with that inward normal is pressed in by an arm that presses along n. Cloth on the far
+   side of the garment is not. */
 static double facing(Vec3 inwards, Vec3 n) { return smoothstep(0, FACES, vec_dot(inwards, n)); }
 
-/* Does an arm press a vertex in, with the part that does so the farthest? */
+/* Does an arm press a vertex in? *out: by the part that does so farthest. */
 static bool find_presser(const Push *p, int vertex, const Touch *t, int arm, Presser *out) {
     const BodyFrame *body = p->body;
     int place = p->sheet->place[vertex];
@@ -193,8 +200,8 @@ static bool find_presser(const Push *p, int vertex, const Touch *t, int arm, Pre
     return depth > 0;
 }
 
-/* An arm's hollow, without what is left of those of the frame before. Vertices that follow each other lie near each
-   other, so a box round sixteen pressers leaves out most. */
+/* The hollow of an arm in this frame: the deepest of its pressers' hollows everywhere. Vertices that follow each
+   other are near each other, so a box round sixteen pressers rules out most of them at once. */
 typedef struct {
     Vec3 way;
     const PresserBlock *block;
@@ -229,15 +236,14 @@ static Hollow find_hollow(Denter *d, const Push *p, const Touch *t, int arm) {
     Hollow h = {.way = t->way[arm], .block = d->block + d->nblocks, .reach = box_empty()};
     for (int v = 0; v < p->sheet->nvertices && d->npressers < d->nplaces; v++) {
         Presser by;
-        if (box_touches(t->before[arm], (Box){p->point[v], p->point[v]}) &&
-            find_presser(p, v, t, arm, &by))
+        if (box_touches(t->before[arm], (Box){p->point[v], p->point[v]}) && find_presser(p, v, t, arm, &by))
             add_presser(d, &h, &by);
     }
     qsort(d->block + d->nblocks - h.nblocks, (size_t)h.nblocks, sizeof *d->block, deepest_first);
     return h;
 }
 
-/* How deep a hollow of that depth and radius is so far from its middle. */
+/* The depth of a hollow of that depth and radius at a squared distance from its middle. */
 static double depth_beside(double depth, double radius, double away2) {
     double radius2 = radius * radius, rest = 1 - away2 / radius2;
     return away2 < radius2 ? rest * rest * depth : 0;
@@ -256,7 +262,7 @@ static double depth_at(const Hollow *h, Vec3 x) {
     return depth;
 }
 
-/* How far a vertex is pressed in, and which way, as there is room: by arms, or from the frame before. */
+/* Sets depth and way of a vertex: pressed in by arms, or still from the frame before, as far as there is room. */
 static void find_depth(Denter *d, const Push *p, int vertex, const Hollow *hollow, int nhollows) {
     int place = p->sheet->place[vertex];
     Vec3 at = p->point[vertex], way = d->held.at[place], n = {0, 0, 0};
@@ -273,11 +279,11 @@ static void find_depth(Denter *d, const Push *p, int vertex, const Hollow *hollo
     }
     if (depth <= 0) return;
     d->way[vertex] = vec_unit_or(way, inwards(p, place));
-    double clearance = p->clearance[vertex] + d->spare[place] + CHORD * depth;
-    d->depth[vertex] = escape_free(&p->escape, p->body, place, at, clearance, d->way[vertex], fmin(depth, p->field.cap));
+    double clearance = p->clearance[vertex] + d->spare[place] + CHORD * depth, most = fmin(depth, p->field.cap);
+    d->depth[vertex] = escape_free(&p->escape, p->body, place, at, clearance, d->way[vertex], most);
 }
 
-/* How much deeper than its neighbour a vertex may be. */
+/* By how much a vertex may be deeper than its neighbour, metres. */
 static double step_between(const Denter *d, const Push *p, int deep, int other) {
     Vec3 to = vec_sub(p->point[other], p->point[deep]);
     double length = vec_len(to), towards = vec_dot(d->way[deep], to);
@@ -294,8 +300,8 @@ static int find_slopes(const Denter *d, const Sheet *sheet) {
     return n;
 }
 
-/* Makes steps in the hollows no larger than that: beside cloth that has no room others stay behind too. Returns
-   whether all are. */
+/* Makes vertices shallower until all such differences are small enough, so that cloth beside a vertex that has no room
+   stays behind too. Returns whether they are. */
 static bool level(const Denter *d, const Push *p) {
     int nslopes = find_slopes(d, p->sheet);
     bool moved = true;

@@ -1,17 +1,18 @@
-/* The nearest way out of a part, along its normal, is the right one for cloth that has just sunk in. Where a limb
-   lies across the cloth, or two parts meet, it is not: it may lead through the limb to its other side, into the
-   other part, or out of the garment. So the normal is turned by what is known of the place: on which side of
-   the body it was at rest, and which parts it is worn over; and of two parts that face each other each asks for
-   half of the room. */
+/* The nearest way out of a part, along its normal, is right for cloth that has just sunk in. It is wrong where a
+   limb lies across the cloth or two parts meet: there it may lead to the other side of the limb, into the other
+   part, or out of the garment. So the normal is turned by what is known of the place: on which side of the body it
+   was in the bind pose, and which parts it is worn over. Of two parts that face each other, each asks for half of
+   the room between them. */
 #include "dress/escape.h"
 
 enum { STEPS_OUT = 6, STEPS_FREE = 8 };
 static const double CLOSE_ENOUGH = 0.1; /* share of the distance wanted that may be missing along a turned normal */
-static const double OPPOSITE = -0.2;    /* cosine: normals of parts between which cloth is squeezed */
-static const double SUNK = 0.01;        /* metres on 1.70 m: facets do not follow flesh that gives way by more */
-static const double WRONG_SIDE = 0.5;   /* cosine to the side at rest below which the normal is bent towards it */
-static const double OUTWARDS = 0.3;     /* cosine: a limb from outside that would push cloth this much out of itself
-                                           pushes it straight in */
+static const double OPPOSITE = -0.2;    /* cosine between normals below which two parts face each other */
+static const double SUNK = 0.01;        /* metres on 1.70 m: how far into flesh that gives way cloth may go in a hollow:
+                                           its facets would not follow farther */
+static const double WRONG_SIDE = 0.5;   /* cosine between a normal and the place's side, below which it is turned */
+static const double OUTWARDS = 0.3;     /* cosine between the normal of a part from outside and the garment's outward
+                                           normal, from which on the part pushes straight inwards */
 
 bool escape_reserve(Escape *s, const Lattice *lattice, Arena *arena, Error *e) {
     *s = (Escape){.lattice = lattice};
@@ -23,9 +24,9 @@ void escape_bind(Escape *s, const Patch *root) {
     for (int place = 0; place < s->lattice->nplaces; place++) s->rest[place] = lattice_point(s->lattice, root, place);
 }
 
-/* The distance to ask for from a part with outward normal n at p, `distance` away from it: the clearance, but where
-   another part stands opposite no more than half the room between the two. Where there is none, a part that comes
-   from outside asks for nothing. */
+/* The distance to ask for from a part at p. distance: what it is now, n: the part's outward normal. It is the
+   clearance; but if another part is opposite, no more than half the room between the two; and if these overlap, a
+   part from outside asks for nothing, so that an own part wins. */
 static double room_for(const Escape *s, const BodyFrame *body, EscapePoint *p, int part, double distance,
                        Vec3 n) {
     double far = 2 * p->clearance - distance;
@@ -44,7 +45,8 @@ static double room_for(const Escape *s, const BodyFrame *body, EscapePoint *p, i
     return yields ? distance : p->clearance;
 }
 
-/* A place that belongs to the other bone of a fold, and is in it: the side is the plane between the two. */
+/* For cloth in the fold of a knee or elbow whose place is on the other bone: its side of this part is beyond the plane
+   between the two bones. above: is the place before the part's start, or behind its end? */
 static bool side_in_fold(const BodyFrame *body, int part, Vec3 x, bool above, Vec3 *side) {
     const Contacts *c = &body->contacts[part];
     for (int k = 0; k < c->n; k++) {
@@ -56,13 +58,13 @@ static bool side_in_fold(const BodyFrame *body, int part, Vec3 x, bool above, Ve
     return false;
 }
 
-/* A foot stands across the leg of trousers: it has no side along it. */
+/* Feet stand across the leg, so a place of trousers is on no side of their axis. */
 static bool has_side(Role role) {
     return role != ROLE_LEFT_FOOT && role != ROLE_RIGHT_FOOT && role != ROLE_LEFT_TOE && role != ROLE_RIGHT_TOE;
 }
 
-/* The side of a part on which p belongs. Along the part: where its place was in the bind pose, as seen from the
-   part's axis. Past a bent joint that means nothing; false where there is no telling. Unit; world. */
+/* *side: the direction from a part's axis to where p belongs, unit, world: that of its place in the bind pose. False if
+   the place is beyond the ends of the part: past a bent joint that direction means nothing. */
 static bool side_of(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, Vec3 *side) {
     const BodyPart *b = &body->body->part[part];
     if (!has_side(b->role)) return false;
@@ -74,10 +76,12 @@ static bool side_of(const Escape *s, const BodyFrame *body, const EscapePoint *p
     return true;
 }
 
-/* Turns *n, the normal of a part at p; returns whether it has. For a part that the cloth is worn over: towards the
-   side where the place belongs. A part that comes from outside never pushes cloth out of the garment: the
-   other leg of trousers is left at that; for an arm the normal is bent into the garment, the more the less it
-   leads there, so that one that sweeps through does not throw cloth to one side and then to the other. */
+/* Turns *n, the normal of a part at p, if it leads to the wrong side. Returns whether it does.
+
+   Of a part that the cloth is worn over: towards the side where the place belongs. Parts from outside never push
+   cloth out of the garment. Of those that the garment is worn over elsewhere (the other leg of trousers) only a
+   normal that leads out is turned. Of others (arms) every normal is turned inwards, the more the less it leads
+   there, so that an arm that sweeps through does not throw cloth first to one side and then to the other. */
 static bool turn_inside(const Escape *s, const BodyFrame *body, const EscapePoint *p, int part, Vec3 *n) {
     if (escape_is_own(s, body, p->place, part)) {
         Vec3 side;
@@ -97,7 +101,7 @@ static bool turn_inside(const Escape *s, const BodyFrame *body, const EscapePoin
     return turn > 0;
 }
 
-/* Along a turned normal the distance does not grow as fast as the way: it is found in steps. */
+/* Along a turned normal the distance grows more slowly than the way, which is therefore found in steps. */
 double escape_way(const Escape *s, const BodyFrame *body, EscapePoint *p, int part, double wanted,
                   double distance, Vec3 *n) {
     double way = wanted - distance;
@@ -117,8 +121,8 @@ double escape_asked(const Escape *s, const BodyFrame *body, EscapePoint *p, int 
     return wanted - distance <= least ? 0 : escape_way(s, body, p, part, wanted, distance, n);
 }
 
-/* Distances change no faster than the point moves, so the least of them is safe to go. What is left behind does not
-   count. */
+/* Distances change no faster than the point moves, so a step by the least of them is safe. Parts from which the step
+   leads away do not count. */
 double escape_free(const Escape *s, const BodyFrame *body, int place, Vec3 at, double clearance, Vec3 n, double most) {
     double way = 0, sunk = SUNK * figure_scale(body->body->height);
     for (int step = 0; step < STEPS_FREE && way < most; step++) {

@@ -1,5 +1,5 @@
-/* Two parts whose boxes are near each other ask for their distances from each other's skin: many vertices at a
-   time, and each pair once. Where anything is nearer than the room that cloth needs they are a contact, and the same
+/* Of two parts whose boxes are near each other, the distances of each one's skin from the other are measured, for
+   many vertices at a time. If any is smaller than the room that cloth needs, the two are a contact, and the same
    distances say how far the skin has to give way. */
 #include "dress/flesh.h"
 
@@ -23,7 +23,8 @@ static bool boxes_near(Box a, Box b, double room) {
     return box_touches((Box){vec_sub(a.low, grown), vec_add(a.high, grown)}, b);
 }
 
-/* The vertices of a part from its *v-th on that the box of another is near to. False where there are none left. */
+/* The next vertices of a part, from its *v-th on, that are near the box of another; moves *v on. False if none are
+   left. */
 static bool gather(const BodyFrame *f, int part, int other, int *v, Block *out) {
     const BodyPart *p = &f->body->part[part];
     const Box *blocks = body_frame_blocks(f, part);
@@ -40,8 +41,8 @@ static bool gather(const BodyFrame *f, int part, int other, int *v, Block *out) 
     return out->n > 0;
 }
 
-/* A part gives way to another: every vertex of its skin by the most that anyone asks for. Returns whether the other
-   is near at all. */
+/* A part gives way to another: f->give of every vertex becomes the most that any contact asks for. Returns whether the
+   other is near at all. */
 static bool press(BodyFrame *f, int part, const Contact *contact) {
     double distance[BLOCK], level[BLOCK];
     Vec3 away[BLOCK], normal[BLOCK];
@@ -95,7 +96,7 @@ static void meet(BodyFrame *f, int a, int b) {
     cb->n += a_is_near || b_is_near;
 }
 
-/* The most that a part may give way at p: 0 where none of those that press on it can be near. */
+/* The most that a part may give way at p: that of the contacts that may be near there. */
 static double most_at(const BodyFrame *f, int part, Vec3 p) {
     const Contacts *contacts = &f->contacts[part];
     double most = 0;
@@ -105,12 +106,14 @@ static double most_at(const BodyFrame *f, int part, Vec3 p) {
     return most;
 }
 
-/* How far a point of a part's skin, `level` away from it, goes inwards along its normal until what the part gives
-   way there is made up for, `left` at the skin itself: the first such place. *n becomes the normal there.
-   Distances change no faster than the point moves, so a step as long as what is left to make up for does not pass
-   it; where that shrinks more slowly, steps are longer. Where that is slight and grows, inside a joint, there is
-   nothing to be gained. What has been passed is found by chords, a point that stays their end twice counting half
-   (Illinois). */
+/* How far a point of a part's skin must go inwards along its normal to be on the surface that the part has after
+   giving way: the first such place; metres. level: the point's distance from the part where nothing presses (about
+   0); left: the gap at the skin itself, how far the part gives way there. *n becomes the normal at the place.
+
+   Distances change no faster than the point moves, so a step as long as the gap does not pass the place. Where the
+   gap shrinks more slowly than that, steps are longer. If it is small and grows, as inside a joint, the search ends.
+   Once a step has passed the place, the Illinois rule finds it: the secant between the two ends, where an end that
+   stays twice counts half. */
 static double way_in(const BodyFrame *f, int p, Vec3 skin, double level, double left, double most, Vec3 *n) {
     enum { STEPS = 16 };
     static const double CLOSE = 1e-6, SLIGHT = 1e-3, LONGEST = 2; /* metres; metres; times what is left */
@@ -137,7 +140,7 @@ static double way_in(const BodyFrame *f, int p, Vec3 skin, double level, double 
     return way;
 }
 
-/* Moves the skin of a part to where it has given way; never farther than the most that it gives. */
+/* Moves the skin of a part to where it has given way. */
 static void give_way(BodyFrame *f, int p) {
     const BodyPart *part = &f->body->part[p];
     for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++) {

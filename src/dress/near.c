@@ -1,6 +1,5 @@
-/* Distances change no faster than the point moves; they are of first order, so no more than a share of a slack is
-   trusted. Vertices that follow each other lie near each other: one box round sixteen of them leaves out most
-   parts at once, and the rest is asked for a lot of them in one go. */
+/* Vertices that follow each other in the sheet are near each other in space. So one box round sixteen of them rules out
+   most parts at once, and each part that is left is asked about many vertices in one call. */
 #include "dress/near.h"
 
 #include "geometry/boxtree.h"
@@ -18,14 +17,14 @@ static unsigned parts_round(const BodyFrame *body, const Vec3 *point, int n, dou
     return parts;
 }
 
-/* Vertices that are asked about in one go, block by block: where each block begins and ends, and the parts that the
-   box round it is near to. */
+/* Vertices that are asked about in one call, block by block: where each block begins and ends, and the parts near its
+   box. */
 typedef struct {
     int nblocks, first[LOT / BLOCK + 1], vertex[LOT];
     unsigned parts[LOT / BLOCK], any;
 } Lot;
 
-/* Asks one part about those of a lot that it may be near to. */
+/* Asks one part about the vertices of a lot that it may be near to. */
 static void ask(Near *near, const BodyFrame *body, int part, const Vec3 *point, const Lot *lot, double far) {
     int vertex[LOT], n = 0;
     Vec3 at[LOT];
@@ -50,8 +49,8 @@ static void ask(Near *near, const BodyFrame *body, int part, const Vec3 *point, 
     }
 }
 
-/* Forgets what is known of the vertices first..end-1, but for those that stand where they were seen, and puts them
-   into the lot. */
+/* Puts the vertices first..end-1 into the lot, all or (known) those that have moved since they were seen, and forgets
+   what is known of them. */
 static void add_block(Lot *lot, Near *near, const BodyFrame *body, const Vec3 *point, int first, int end, double far,
                       bool known) {
     int start = lot->first[lot->nblocks], n = start;

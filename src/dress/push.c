@@ -1,29 +1,32 @@
-/* Local deformation as a feasibility problem: every mesh vertex must keep its clearance from the
-   parts it collides with. A violated one is a half space; projecting onto half spaces in turn
-   (Kaczmarz, POCS) needs no step size, so 30 and 120 frames a second give the same shape.
+/* Local deformation as a feasibility problem: every mesh vertex near the body (a sample) must keep its clearance.
+   Where one is too near to a part, all positions that are far enough form, to first order, a half space; projecting
+   onto these half spaces in turn (Kaczmarz, POCS) needs no step size, so 30 and 120 frames a second give the same
+   shape.
 
-   The unknowns are the displacements of level vertices, coarse and fine together: a projection
-   moves all that reach the sample, in proportion to their weights, by the least change; pinned ones
-   give way last. What others have made needless of it is taken back (Hildreth 1957), so that the cloth goes
-   no farther than it must. Which half space it is, dress/escape tells; what the levels are too coarse for is
-   left to dress/settle. */
+   The unknowns are the displacements of level vertices, of coarse and fine levels together. A projection changes all
+   that move the sample, in proportion to their weights: the least change that does it. Pinned ones give way least. A
+   push that others have made needless is taken back (Hildreth 1957), so that the cloth goes no farther than it must.
+   dress/escape says which half space it is; what even the finest level is too coarse for is left to dress/settle. */
 #include "dress/push.h"
 
 #include <string.h>
 
 /* Caps and tolerances, metres on a figure of 1.70 m where they are lengths. */
 enum { SWEEPS_MAX = 30, STALL = 3, ROUNDS_MAX = 3 };
-static const double REACH = 0.04;    /* vertices farther from the body are not swept */
-static const double SLACK = 0.1;     /* share of the clearance that may be missing after sweeps; settling makes
-                                        up for it */
-static const double PIN_GIVES = 0.2; /* a pinned level vertex moves this share of what a free one would, and one */
-static const double PINNED = 0.25;   /* of a level this share of the next finer one: a waist gives way in places */
-static const double LITTLE = 0.002;  /* pushes that go no farther than that are not worth taking back */
-static const double NORM_MIN = 0.1;  /* a sample that level vertices hardly move must not fling them */
-static const double BUDGET = 0.02;   /* a sample may issue twice its first violation and this */
-static const double HEADWAY = 0.6;   /* pushes that get this share of their length nowhere are a pinch */
+static const double REACH = 0.04;    /* vertices farther from the body are no samples */
+static const double SLACK = 0.1;     /* share of the clearance that may be missing after the sweeps */
+static const double PIN_GIVES = 0.2; /* a pinned level vertex of the finest level moves this share of what a free one
+                                        would, */
+static const double PINNED = 0.25;   /* of each coarser level this share of the next finer one: a waist gives way in
+                                        places, not as a whole */
+static const double LITTLE = 0.002;  /* once no more than this is taken back, taking back ends */
+static const double NORM_MIN = 0.1;  /* least squared norm of a sample's weights: one that the unknowns hardly move must
+                                        not fling them */
+static const double BUDGET = 0.02;   /* a sample's pushes may sum up to twice its first violation and this */
+static const double HEADWAY = 0.6;   /* if the sum of pushes is shorter than this share of their lengths, they undo each
+                                        other: a pinch */
 
-/* Which unknowns move a place follows from its cell, and their weights from its two coordinates. */
+/* Fills p->cell and p->along: which unknowns move a place depends on its cell, their weights on its coordinates. */
 static void list_unknowns(Push *p) {
     const Lattice *l = p->lattice;
     int cells = 1 << l->depth, ncells = l->fit->npatches * cells * cells;
@@ -38,7 +41,7 @@ static void list_unknowns(Push *p) {
             memcpy(p->along[i].weight[level], l->level[level].step[i].weight, sizeof p->along[i].weight[level]);
 }
 
-/* Patches that share a corner are moved by the same unknowns, in part. Without a list only counts. */
+/* Lists the patches that share a corner with this one, itself included; returns their number. list may be NULL. */
 static int list_neighbours(const Lattice *l, int patch, int *list) {
     const LatticeLevel *at = &l->level[0];
     int n = 0;
@@ -87,7 +90,7 @@ bool push_reserve(Push *p, const Lattice *lattice, Arena *arena, Error *e) {
            p->near && p->sample;
 }
 
-/* A level vertex may move where all cells round it are split to its level; where they are not, it is at rest. */
+/* A level vertex may move if all cells round it are split to its level, or the surface would not stay continuous. */
 static void find_mobility(Push *p, const Leaves *leaves) {
     const Lattice *l = p->lattice;
     int cells = 1 << l->depth;
@@ -106,7 +109,7 @@ static void find_mobility(Push *p, const Leaves *leaves) {
     }
 }
 
-/* Levels deeper than the leaf over a cell have nothing to say there. */
+/* Counts the levels that move anything in each cell: those down to the leaf over it. */
 static void find_levels(Push *p) {
     for (int c = 0; c < lattice_cells(p->lattice); c++) {
         PushCell *cell = &p->cell[c];
@@ -117,7 +120,7 @@ static void find_levels(Push *p) {
     }
 }
 
-/* A vertex displaced by d: never farther than the cap, whatever the levels add up to. */
+/* Where a vertex is that the field displaces by d, with its offset and dent: no farther off than the cap. */
 static Vec3 displaced(const Push *p, int vertex, Vec3 d) {
     bool capped = false;
     int place = p->sheet->place[vertex];
@@ -125,11 +128,13 @@ static Vec3 displaced(const Push *p, int vertex, Vec3 d) {
     return vec_add(p->global[vertex], field_limit(vec_add(d, own), p->field.cap, &capped));
 }
 
+/* Puts all vertices where the field has them. */
 static void find_points(Push *p) {
     surface_field(&p->surface, p->sheet, &p->field, p->point);
     for (int v = 0; v < p->sheet->nvertices; v++) p->point[v] = displaced(p, v, p->point[v]);
 }
 
+/* weight[level][k]: how far unknown k of a level moves the sample. */
 static void weigh(const PushSample *s, double weight[][4]) {
     for (int level = 0; level < s->cell->levels; level++)
         for (int k = 0; k < 4; k++) weight[level][k] = s->u->weight[level][k / 2] * s->w->weight[level][k % 2];
@@ -142,8 +147,8 @@ static Vec3 sample_point(const Push *p, const PushSample *s, double weight[][4])
     return displaced(p, s->vertex, d);
 }
 
-/* Parts that move the surface at a place: those that it is worn over, and those that the garment is worn
-   over elsewhere, as the other leg is for one of trousers. */
+/* Roles (bits 1 << role) of the parts that push the surface at a place: those that it is worn over there, and those
+   that the garment is worn over elsewhere, such as the other leg for one leg of trousers. */
 static unsigned movers(const Push *p, int place) {
     return p->lattice->collide[place] | p->lattice->fit->collide;
 }
@@ -168,6 +173,7 @@ static void add_sample(Push *p, int vertex, int place, unsigned parts, double fa
     s->net = vec(0, 0, 0);
 }
 
+/* Makes a sample of every vertex that is near to such a part. */
 static void find_samples(Push *p) {
     const Sheet *sheet = p->sheet;
     double far = (PUSH_MARGIN + REACH) * p->field.scale;
@@ -209,7 +215,7 @@ static void project(Push *p, const PushSample *s, double weight[][4], Vec3 n, do
         p->patch_travel[p->neighbour[k]] += sum;
 }
 
-/* The most that a sample can have been moved since it was found. */
+/* A bound on how far a sample has been moved since it was found. */
 static double travelled(const Push *p, const PushSample *s) {
     const double *t = p->travel;
     double sum = 0;
@@ -221,22 +227,23 @@ static double travelled(const Push *p, const PushSample *s) {
     return sum;
 }
 
-/* Between two parts that overlap there is no room: each push undoes the one before, and all that
-   would come of it is that the neighbours are carried away. */
+/* Between two parts that overlap there is no room. There each push undoes the one before, and only carries the
+   neighbours away, so the sample is left alone. */
 static bool is_pinched(const Push *p, const PushSample *s) {
     return s->spent > s->budget || (s->spent > BUDGET * p->field.scale && vec_len(s->net) < HEADWAY * s->spent);
 }
 
-/* The distance that a sample must have from all parts to be left alone. */
+/* The distance from all parts that is enough for a sample in this sweep. */
 static double enough_for(const Push *p, const PushSample *s) { return (1 - p->slack) * p->clearance[s->vertex]; }
 
-/* Has the patch of a sample gone so little that it cannot have come too near to any part since they were last
-   asked? */
+/* Has the sample's patch moved so little that the sample cannot have come too near to a part since they were last
+   asked? The cheapest test, for most samples of most sweeps. */
 static inline bool is_at_rest(const Push *p, const PushSample *s) {
     return near_slack(s->near.least, enough_for(p, s)) > p->patch_travel[s->patch] - s->patch_travelled;
 }
 
-/* May a sample have? What moves it is held against its slack, then its own way. If so it is placed. */
+/* May the sample itself have come too near? Asked of the bound on its own movement, then of its position. Fills weight
+   and near.seen, where it is now, if so. */
 static bool needs_asking(Push *p, PushSample *s, double weight[][4]) {
     double slack = near_slack(s->near.least, enough_for(p, s)), way = travelled(p, s);
     s->patch_travelled = p->patch_travel[s->patch] - (way - s->travelled);
@@ -251,8 +258,8 @@ static bool needs_asking(Push *p, PushSample *s, double weight[][4]) {
     return slack <= gone;
 }
 
-/* Others may have carried a sample farther out than it asked for itself. Then it takes its own pushes back, as far as
-   it keeps its clearance; they stay spent. Returns how far that is. */
+/* Other samples may have carried this one farther out than it asked for. Then it takes back its own pushes, as far
+   as it keeps its clearance. Returns how far that is, in metres. */
 static double take_back(Push *p, PushSample *s, double weight[][4], double clearance, PushResult *result) {
     double pushed = vec_len(s->net), way = fmin(s->near.least - clearance, pushed);
     if (pushed <= 0 || way <= 0) return 0;
@@ -263,12 +270,12 @@ static double take_back(Push *p, PushSample *s, double weight[][4], double clear
     return way;
 }
 
-/* Pushes one sample out of the parts it is too near to. Parts that have been found clear are left alone until the
-   sample has used up its slack, but for those that give way: in a fold that may change at once. Returns the depth
-   of the worst violation that was acted on. */
+/* Pushes one sample out of the parts that it is too near to. A part that was far enough is not asked again until the
+   sample has moved by the difference, unless it gives way and was not asked yet. Returns the largest violation that was
+   acted on, in metres. */
 static double push_sample(Push *p, PushSample *s, PushResult *result) {
     const BodyFrame *body = p->body;
-    if (s->budget >= 0 && is_pinched(p, s)) return 0; /* it has had its say */
+    if (s->budget >= 0 && is_pinched(p, s)) return 0;
     double clearance = p->clearance[s->vertex], enough = enough_for(p, s), most = 0;
     double far = clearance + REACH * p->field.scale, weight[LATTICE_LEVELS][4];
     if (!needs_asking(p, s, weight)) return 0;
@@ -298,7 +305,7 @@ static double push_sample(Push *p, PushSample *s, PushResult *result) {
     return most;
 }
 
-/* One pass over all samples; returns how far one was pushed at most, 0 = nothing to do. */
+/* One pass over all samples. Returns the largest push in metres; 0: all keep their clearance. */
 static double sweep(Push *p, PushResult *result) {
     double most = 0;
     p->taken = 0;
@@ -307,8 +314,8 @@ static double sweep(Push *p, PushResult *result) {
     return most;
 }
 
-/* Sweeps until nothing is violated and little taken back, or nothing gets better, or the cap; the last ones take
-   nothing back. Returns the sum of the largest moves: nobody has gone farther. */
+/* Sweeps until all samples keep their clearance and little is taken back, or until it stalls (after STALL sweeps the
+   largest push is not halved), or SWEEPS_MAX. Returns the sum of the largest moves, a bound on all of them. */
 static double sweep_all(Push *p, PushResult *result) {
     double moved = 0, before = INFINITY, most = 0;
     bool stalls = false;
@@ -350,7 +357,7 @@ void push_solve(Push *p, PushResult *result) {
     field_drop_spots(&p->field.dent);
     for (int round = 0; round < ROUNDS_MAX && moved >= REACH * p->field.scale; round++) {
         find_samples(p);
-        moved = sweep_all(p, result); /* when it is less nobody can have come near who was not */
+        moved = sweep_all(p, result); /* if less than REACH, no vertex that was far away can have come near */
     }
     if (moved > 0) find_points(p);
 }

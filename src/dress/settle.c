@@ -1,14 +1,14 @@
-/* A field that is smooth between level vertices cannot serve every vertex of the mesh: a chord across a bulge, an arm
-   that touches a skirt. What is missing then is small, and asked of the vertex itself, after all else: an
-   offset of its own, no longer than would be seen as a spike. */
+/* The field is smooth between level vertices, so it cannot satisfy every vertex of the mesh: where a facet cuts
+   across a bulge, or where an arm touches a skirt. What is missing then is small. The vertex is moved by itself,
+   after the sweeps: by an offset, no longer than what would be seen as a spike. */
 #include "dress/settle.h"
 
 enum { STEPS_MAX = 4 };
-static const double RAISE_MAX = 0.015; /* most extra clearance, and */
+static const double RAISE_MAX = 0.015; /* most extra clearance, metres on 1.70 m */
 static const double OFFSET_MAX = 0.03; /* longest offset: more would be a spike; metres on 1.70 m */
-static const double JUST_CLEAR = 0.5;  /* of the distance that vertices keep: so far a facet that crosses a part is
-                                          moved off it. It sinks in again by less than a millimetre in a frame, and
-                                          the whole distance would be a jump in one of ten */
+static const double JUST_CLEAR = 0.5;  /* share of PUSH_MARGIN by which a facet that crosses a part is moved off it. It
+                                          sinks in again by less than a millimetre in a frame; with the whole margin
+                                          it would jump in every tenth frame */
 
 bool settle_reserve(Settler *s, const Lattice *lattice, Arena *arena, Error *e) {
     *s = (Settler){.nraised = 0};
@@ -21,7 +21,7 @@ void settle_start(Settler *s) {
     dent_start(&s->denter);
 }
 
-/* Parts that lie within `far` of p: bits 1 << part. */
+/* Parts nearer than `far` to p: bits 1 << part. */
 static unsigned parts_near(const BodyFrame *body, BodyPoint *p, double far) {
     unsigned near = 0;
     for (int k = 0; k < body->body->nparts; k++)
@@ -29,7 +29,8 @@ static unsigned parts_near(const BodyFrame *body, BodyPoint *p, double far) {
     return near;
 }
 
-/* For a part that it is worn over a vertex gets an offset, for one from outside its hollow becomes deeper there. */
+/* Moves a vertex by a vector because of a part: by an offset if it is worn over the part, by a deeper dent if the part
+   comes from outside. */
 static void move(const Settler *s, Push *p, int vertex, Vec3 by, bool is_worn, bool *capped) {
     double most = OFFSET_MAX * p->field.scale;
     if (!is_worn) {
@@ -43,8 +44,8 @@ static void move(const Settler *s, Push *p, int vertex, Vec3 by, bool is_worn, b
     field_set_spot(&p->field.offset, place, longer);
 }
 
-/* The step that takes a vertex at `at` out of a part; false where there is none to take. From a part that comes from
-   outside, where the way into the garment is too far, it is the nearest one, and only as far as is free. */
+/* The vector that takes a vertex at `at` out of a part; false if there is none. For a part from outside it leads
+   into the garment, or, if that is too far, the nearest way out, and only as far as the own parts leave room. */
 static bool step_out(const Push *p, EscapePoint *at, int part, Vec3 *step) {
     const BodyFrame *body = p->body;
     Vec3 n, plain;
@@ -65,6 +66,7 @@ static bool step_out(const Push *p, EscapePoint *at, int part, Vec3 *step) {
     return way > 0;
 }
 
+/* Takes a vertex out of all parts that it is too near to. */
 static void settle_vertex(const Settler *s, Push *p, int vertex, bool *capped) {
     const BodyFrame *body = p->body;
     const Near *seen = &p->near[vertex];
@@ -105,7 +107,8 @@ bool settle_raise(Settler *s, Push *p, int vertex, double by, double most) {
     return true;
 }
 
-/* Moves the corners of a hit by the least that takes its point as far off the part as it should be. */
+/* Moves the vertices of a hit by the least that takes the point where it crosses as far off the part as it should
+   be. */
 static void move_off(const Settler *s, Push *p, const TesterHit *hit) {
     const BodyFrame *body = p->body;
     int place = p->sheet->place[tester_hit_vertex(hit)];
@@ -128,7 +131,8 @@ static void move_off(const Settler *s, Push *p, const TesterHit *hit) {
     }
 }
 
-/* A part that it is worn over takes cloth out of its hollow first; what is left waits until all corners are raised. */
+/* If the part is an own one, a hollow that an arm presses may be the reason: then the vertices are taken back out of
+   it. Moving them off waits until all of them were raised, which is often enough. */
 void settle_hit(Settler *s, Push *p, const TesterHit *hit) {
     bool is_worn_over = p->field.lattice->fit->collide & part_bit(p->body, hit->part);
     bool is_all_raised = true;

@@ -1,7 +1,7 @@
-/* Two parts A and B with signed distances a and b lack the room o = ROOM - a - b at a point. A
-   gives way by its share of it, B by the rest: a + s o and b + (1 - s) o add up to ROOM, so
-   wherever both may give way there is a gap that wide, and where nothing is lacking nothing
-   changes. It is a function of the pose alone: no state, no popping. */
+/* At a point with signed distances a and b from two parts, the room o = ROOM - a - b is missing between them. The
+   first gives way by its share s of it, the other by the rest: a + s o and b + (1 - s) o add up to ROOM, so wherever
+   both may give way there is a gap of that width. Where nothing is missing nothing changes. All this depends on the
+   pose alone, so nothing can jump from frame to frame. */
 #include "dress/yield.h"
 
 /* How far the flesh of a role gives way, metres on 1.70 m: soft over belly, thigh and calf,
@@ -39,7 +39,8 @@ bool yield_concerns(Role a, Role b) {
     return a != b && (b - a > 1 || is_upper(a));
 }
 
-/* Captured legs that swing past each other pass through each other by more than flesh would give. */
+/* Captured legs that swing past each other overlap by more than flesh would give way. So legs are softer to each
+   other. */
 static double softness_of_legs(Role role) {
     switch (role) {
     case ROLE_LEFT_SHIN:
@@ -56,8 +57,8 @@ static bool are_legs(Role a, Role b) {
     return role_limb(a) != role_limb(b) && role_limb(a) >= leg && role_limb(b) >= leg;
 }
 
-/* Parts that meet at a joint of the body: at its outside they are one surface, and only where they
-   fold against each other do they press. */
+/* Do the parts meet at a joint of the body? On its outside they are one surface, and press only where they fold against
+   each other. */
 static bool share_joint(Role a, Role b) {
     if (a > b) return share_joint(b, a);
     if (role_limb(a) == role_limb(b)) return b - a == 1;
@@ -95,8 +96,9 @@ void yield_fold(Vec3 centre, Vec3 up, Vec3 down, double radius, Contact *upper, 
     lower->most = fmax(lower->most, GIVES * radius);
 }
 
-/* Where a part that folds ends: the plane that halves the bend, half the room before it; towards the joint, where
-   both bones are one, the wall that falls away steeply. It ends there only where the other is near. */
+/* The surfaces at which a part ends in a fold, as distances of a point from them: half the room before the plane
+   that halves the bend (wall); before the steep wall towards the joint, where both bones are one (below); and where
+   the other part is no longer near (near). */
 typedef struct { double wall, below, near; } FoldEnd;
 static FoldEnd end_in_fold(const Fold *fold, double room, const Meeting *m) {
     Vec3 r = vec_sub(m->at, fold->centre);
@@ -122,9 +124,9 @@ static Vec3 normal_in_fold(const Fold *fold, double room, const Meeting *m) {
     return vec_scale(is_near ? m->away : end.wall <= end.below ? fold->across : fold->floor, -1);
 }
 
-/* The share of what is lacking that a part makes. */
+/* The share of the missing room that a part makes at a point. */
 static double share_at(const Contact *c, const Meeting *m) {
-    static const double FACING = 0.6; /* cosine between a normal and the other's opposite: folded, all of the way */
+    static const double FACING = 0.6; /* cosine of one normal to the opposite of the other: from here on in full */
     return c->folds ? c->share * smoothstep(0, FACING, -vec_dot(m->normal, m->away)) : c->share;
 }
 
@@ -140,7 +142,7 @@ static Vec3 normal_by_share(const Contact *c, double room, const Meeting *m) {
 }
 
 bool yield_may(const Contact *c, Vec3 normal, Vec3 away) {
-    static const double SURE = 0.2; /* cosine: they do not face each other, however roughly the normal is known */
+    static const double SURE = 0.2; /* cosine between the normals below which they may face each other */
     return !c->folds || c->fold.bottom > 0 || vec_dot(normal, away) < SURE;
 }
 
