@@ -1,16 +1,16 @@
-/* What the readers of the formats share with motion.c. Private to this floor. */
+/* What the readers of BVH, AMC and ASF share with motion.c. Private to this floor. */
 #ifndef MOTION_SOURCE_H
 #define MOTION_SOURCE_H
 
 #include "motion/motion.h"
 #include "motion/stream.h"
 
-/* Every stride-th frame has a mark, from which reading can start. When the marks are used up
-   every second goes and the stride doubles, so the index of any file is of one size. */
+/* Every stride-th frame has a mark, from which reading can start. When there is no room for more marks, every second
+   one is dropped and the stride doubles, so that the index of any file has the same size. */
 enum { MARKS_MAX = 1024 };
 
-/* Where the values of a bone's line in an AMC file go. An ASF lists degrees of freedom in
-   any order, seven at most: translation, rotation and length. */
+/* Where the values of a bone's line in an AMC file go. An ASF file lists degrees of freedom in any order, seven at
+   most: three of translation, three of rotation, and length. */
 enum { DOF_MAX = 7, DOF_LENGTH = CHANNEL_RZ + 1 };
 typedef struct {
     const char *name;
@@ -51,16 +51,21 @@ typedef struct {
     struct Positions *positions;
 } Opening;
 
-/* bvh.c: reads the head and all frames; row reads one frame where the stream stands. */
+/* bvh.c: bvh_open reads the head and all frames, bvh_row the frame at which the stream stands. */
 MUST_CHECK bool bvh_open(Opening *o, Error *e);
 MUST_CHECK bool bvh_row(Stream *s, const MotionSource *source, double *row, Error *e);
+/* bvh_head.c: reads up to MOTION and hands the skeleton to source_skeleton. */
+MUST_CHECK bool bvh_head(Opening *o, Error *e);
+/* A channel's name in a BVH file, by its ChannelKind. */
+extern const char *const bvh_channels[];
 
 /* acclaim.c: the same for AMC files. */
 MUST_CHECK bool acclaim_open(Opening *o, Error *e);
 MUST_CHECK bool acclaim_row(Stream *s, const MotionSource *source, double *row, Error *e);
 
-/* asf.c: finds the skeleton of an AMC file, reads it and hands it to source_skeleton. */
+/* asf_find.c: the path of the skeleton that stands beside an AMC file. */
 MUST_CHECK bool asf_find(Opening *o, const char **path, Error *e);
+/* asf.c: reads a skeleton and hands it to source_skeleton. */
 MUST_CHECK bool asf_read(Opening *o, const char *path, Acclaim *out, Error *e);
 /* Index in a->bone, or -1. */
 int asf_bone(const Acclaim *a, Word name);

@@ -5,8 +5,8 @@
 
 #include "base/arena.h"
 
-/* STREAM_LOOK bytes from `at` on are always in the window (or the file ends before), so no
-   word up to that length is ever cut by the window's edge. */
+/* At least STREAM_LOOK bytes from `at` on are in the window, or all that the file has left, so that no word up to that
+   length is cut by the window's end. */
 enum { STREAM_SIZE = 1 << 16, STREAM_LOOK = 1 << 12 };
 
 typedef struct {

@@ -106,13 +106,14 @@ static FrameResult read_frame(Stream *s, const MotionSource *source, int *number
     return check_complete(s, source, *number, row, e);
 }
 
-/* Any text with a '#' in front comes here: before a skeleton is asked for, it must look like a motion. */
+/* Any text that begins with '#' is taken for an AMC file at first. So before its skeleton is looked for, it must look
+   like one. */
 static bool no_motion(Stream *s, Word w, Error *e) {
     int n = error_shown(w.length);
     return stream_error(s, e, "neither BVH nor Acclaim AMC: found '%.*s'", n, w.start);
 }
 
-/* The rate, which few files tell. */
+/* The value of :SAMPLES-PER-SECOND, which few files have. */
 static bool read_rate(Opening *o, Error *e) {
     Stream *s = &o->in;
     double rate = 0;

@@ -1,25 +1,22 @@
-/* ASF, the skeleton of an Acclaim pair. It describes bones, where BVH describes joints: each
-   has a direction and a length in the rest pose and begins where its parent ends. So a bone
-   becomes the joint at its beginning, the OFFSET of a joint is its parent's bone, and a leaf
-   gets an end site. Its rotations are meant in a frame of its own, turned by `axis`:
-   R = C D C^-1. An order XYZ says that x is turned first: as a product of matrices Rz Ry Rx. */
-#include <dirent.h>
-#include <errno.h>
+/* ASF, the skeleton of an Acclaim pair. It describes bones, where BVH describes joints: each bone has a direction
+   and a length in the rest pose and begins where its parent ends. So a bone becomes the joint at its beginning, the
+   OFFSET of a joint is its parent's bone, and a leaf gets an end site. The rotations D of a bone are given in its
+   own frame, which is turned by C, its `axis`: R = C D C^-1. An order XYZ says that x is turned first, as a product
+   of matrices Rz Ry Rx. */
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <unistd.h>
 
 #include "motion/source.h"
 
-enum { FIRST_BONES = 64, NAME_MAX_BYTES = 1000, FRAMES_OF_REFERENCE = 3 };
+enum { FIRST_BONES = 64, NAME_MAX_BYTES = 1000, AXES = 3 };
 
 /* A bone as the file has it, and its place in the tree. */
 typedef struct {
     Bone bone;
     Vec3 direction, angles;
     double length;
-    char order[FRAMES_OF_REFERENCE + 1];
+    char order[AXES + 1];
     int parent, first_child, last_child, next; /* -1: none */
     int joint;                                 /* its index in the skeleton */
 } Part;
@@ -55,7 +52,7 @@ static bool read_scalar(Asf *a, const char *what, double *out, Error *e) {
 }
 
 /* XYZ in any order. */
-static bool read_order(Asf *a, char order[FRAMES_OF_REFERENCE + 1], Error *e) {
+static bool read_order(Asf *a, char order[AXES + 1], Error *e) {
     Word w = stream_peek(&a->in);
     bool good = w.length == 3;
     for (int i = 0; i < 3 && good; i++) {
@@ -174,7 +171,7 @@ int asf_bone(const Acclaim *a, Word name) {
     return -1;
 }
 
-/* The bones are known: sorts them by name. Until the tree is built, Bone.joint is the part. */
+/* Called when all bones are known: sorts them by name. Until the tree is built, Bone.joint is the index of the part. */
 static bool sort_bones(Asf *a, Error *e) {
     Acclaim *k = a->acclaim;
     if (!(k->bone = ARENA_NEW(a->o->arena, Bone, a->nparts, e))) return false;
@@ -309,7 +306,7 @@ static bool add_joint(Asf *a, int i, Joint *joint, int *njoints, Error *e) {
     return i == 0 || p->first_child >= 0 || add_end(a, p, &joint[(*njoints)++], e);
 }
 
-/* The part behind i in a walk of the tree, children in the order of the file. -1: the last. */
+/* The part after i in a depth-first walk of the tree, children in the order of the file; -1 after the last. */
 static int walk(const Asf *a, int i) {
     if (a->part[i].first_child >= 0) return a->part[i].first_child;
     while (i >= 0 && a->part[i].next < 0) i = a->part[i].parent;
@@ -347,52 +344,4 @@ bool asf_read(Opening *o, const char *path, Acclaim *out, Error *e) {
     if (fd >= 0) close(fd);
     out->degrees = a.degrees;
     return good;
-}
-
-/* Is `stem` the beginning of `name` up to a place where a word ends? 02 of 02_03, not of 021. */
-static bool is_prefix(const char *stem, size_t n, const char *name, size_t length) {
-    return n <= length && memcmp(stem, name, n) == 0 && (n == length || !strchr("0123456789", name[n]));
-}
-
-typedef struct {
-    char best[256]; /* the file with the longest stem that fits, or the only one */
-    size_t stem;    /* its length; 0: it does not fit */
-    int count;      /* files that end in .asf */
-} Search;
-
-static void consider(Search *found, const char *file, const char *name, size_t length) {
-    size_t n = strlen(file);
-    if (n <= 4 || n >= sizeof found->best || strcasecmp(file + n - 4, ".asf") != 0) return;
-    found->count++;
-    size_t stem = is_prefix(file, n - 4, name, length) ? n - 4 : 0;
-    /* Of a.asf and a.ASF take one whatever the order of the folder. */
-    bool better = stem > found->stem || (stem == found->stem && (found->count == 1 || strcmp(file, found->best) < 0));
-    if (!better) return;
-    memcpy(found->best, file, n + 1);
-    found->stem = stem;
-}
-
-bool asf_find(Opening *o, const char **path, Error *e) {
-    const char *amc = o->motion->path, *slash = strrchr(amc, '/'), *name = slash ? slash + 1 : amc;
-    if (strcmp(amc, "-") == 0)
-        return error_set(e, ERR_INPUT, "an AMC motion on standard input needs its skeleton: give --asf");
-    const char *dot = strrchr(name, '.');
-    size_t length = dot ? (size_t)(dot - name) : strlen(name), folder = (size_t)(name - amc);
-    const char *where = folder ? arena_text(o->arena, amc, folder, e) : ".";
-    if (!where) return false;
-    DIR *dir = opendir(where);
-    if (!dir)
-        return error_set(e, ERR_INPUT, "cannot list '%s' for the skeleton of '%s': %s", where, amc, strerror(errno));
-    Search found = {.count = 0};
-    for (struct dirent *entry; (entry = readdir(dir));) consider(&found, entry->d_name, name, length);
-    closedir(dir);
-    if (!found.stem && found.count != 1)
-        return error_set(e, ERR_INPUT, "no skeleton for '%s': %s beside it; give --asf", amc,
-                         found.count ? "none of the .asf files has a name that fits" : "there is no .asf file");
-    char *full = ARENA_NEW(o->arena, char, folder + strlen(found.best) + 1, e);
-    if (!full) return false;
-    memcpy(full, amc, folder);
-    memcpy(full + folder, found.best, strlen(found.best));
-    *path = full;
-    return true;
 }

@@ -1,8 +1,8 @@
-/* Do position channels replace the OFFSET or add to it? Both occur and no file says which.
-   If they replace it, a joint's values lie round its OFFSET; if they add, round zero. Each
-   coordinate is a witness, the more trusted the less it varies: while somebody walks away
-   along x and z, the height of the hips still tells. To replace is the custom, so adding must
-   fit twice as well: who sits is below the OFFSET's height in either case. */
+/* Do position channels replace the OFFSET or add to it? Both occur, and no file says which. If they replace it, a
+   joint's values lie round its OFFSET; if they add, round zero. Each position channel of a joint with an OFFSET is a
+   witness, the more trusted the less its values vary: while somebody walks away along x and z, the height of the
+   hips still tells. Nearly all files mean to replace, so adding must fit twice as well: the hips of somebody who
+   sits are below the OFFSET's height in either case. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,8 +42,8 @@ bool positions_start(const Skeleton *s, Arena *arena, Positions **out, Error *e)
     return true;
 }
 
-/* When the room for samples is full every second goes, and from then on every second frame
-   is passed over: the samples stay spread evenly, whatever the number of frames. */
+/* When there is no room for more samples, every second one is dropped, and from then on every second frame is passed
+   over: the samples stay spread evenly, whatever the number of frames. */
 void positions_add(Positions *p, int frame, const double *row) {
     if (frame % p->stride != 0) return;
     if (p->nsamples == SAMPLES_MAX) {
@@ -63,14 +63,16 @@ static int ascending(const void *a, const void *b) {
 }
 
 bool positions_are_deltas(Positions *p) {
-    double replace = 0, add = 0; /* distance from what each of the two expects, in spreads */
+    static const double SPREAD_LEAST = 0.05; /* of the OFFSET's length: values that do not vary at all */
+    static const double FAR = 10, BETTER = 2; /* most that a witness counts; how much better adding must fit */
+    double replace = 0, add = 0; /* sums of the distance from what each of the two expects, in spreads */
     for (int i = 0; i < p->nwitnesses && p->nsamples > 0; i++) {
         Witness *w = &p->witness[i];
         qsort(w->value, (size_t)p->nsamples, sizeof *w->value, ascending);
         double median = w->value[p->nsamples / 2];
-        double spread = w->value[p->nsamples * 9 / 10] - w->value[p->nsamples / 10] + 0.05 * w->size;
-        replace += fmin(fabs(median - w->offset) / spread, 10);
-        add += fmin(fabs(median) / spread, 10);
+        double spread = w->value[p->nsamples * 9 / 10] - w->value[p->nsamples / 10] + SPREAD_LEAST * w->size;
+        replace += fmin(fabs(median - w->offset) / spread, FAR);
+        add += fmin(fabs(median) / spread, FAR);
     }
-    return 2 * add < replace;
+    return BETTER * add < replace;
 }
