@@ -59,6 +59,32 @@ static void test_turned(void) {
     OK(head == 'y', "who stands on the head on a floor is upside down: up is %c", head);
 }
 
+/* neuron.bvh with the end sites of the feet somewhere else. */
+static const char *with_foot_ends(const char *end) {
+    const char *path = in_folder("ends.bvh");
+    FILE *in = fopen("tests/data/figure/neuron.bvh", "r"), *out = fopen(path, "w");
+    char line[4096];
+    while (fgets(line, sizeof line, in))
+        if (strstr(line, "-6.5000 13.0000")) fprintf(out, "OFFSET %s\n", end);
+        else fputs(line, out);
+    fclose(in);
+    fclose(out);
+    return path;
+}
+
+/* In the oldest rigs a foot's line goes straight down to the ground. */
+static void test_foot_ends(void) {
+    static const char *const ends[] = {"0 -8 0", "0 -15 0"};
+    for (int i = 0; i < 2; i++) {
+        Rig told, found;
+        if (!open_both(&told, "tests/data/figure/neuron.bvh", &found, with_foot_ends(ends[i]), ends[i])) return;
+        double off = foot_difference(&told, &found);
+        OK(strcmp(found.figure.rest, told.figure.rest) == 0, "a line from ankle to ground leaves a T-pose what it is");
+        OK(off < 20, "and soles stay flat, but for %.1f degrees: the ankle is higher", off);
+        close_both(&told, &found);
+    }
+}
+
 /* Who crouches on the toes for the whole take never shows how trunk, head and feet are at rest: the same take with a
    human zero pose tells. */
 static void test_crouch(void) {
@@ -194,6 +220,7 @@ int main(void) {
     if (!folder_make()) return 1;
     test_lying();
     test_turned();
+    test_foot_ends();
     test_crouch();
     test_sacrum();
     test_pose_in_front();

@@ -8,7 +8,8 @@
 #include "figure/sample.h"
 
 typedef struct {
-    bool human;        /* is there one? Legs down, arms mirrored, feet across the shins */
+    bool human;        /* is there one? Legs down, arms mirrored */
+    bool soles;        /* if human: do the feet stand across the shins, so that the soles are flat in it? */
     const Rigid *pose; /* the transform of each joint in it, file units and axes */
     Mat3 frame;        /* if human: the performer's left, up and forward in it as columns, file axes */
     const char *name;  /* "T-pose offsets", ... */

@@ -3,7 +3,9 @@
 
    A human zero pose shows flat soles. Without one, the frames in which the foot most likely stands on the ground tell
    both. Where no frame does (somebody who kneels, crawls or lies), the shin tells the roll: ankles bend forwards and
-   backwards, but hardly to the side. */
+   backwards, but hardly to the side.
+
+   In some rigs the line from the ankle does not end at the toes but at the ground below, and tells nothing. */
 #include "figure/bind_foot.h"
 
 #include "figure/measure.h"
@@ -61,13 +63,13 @@ static Vec3 up_of_sole(const Binder *b, Role foot, Vec3 along, double slope) {
 /* From a human zero pose, where soles lie flat. Two exceptions: legs that stand astride tilt the soles sideways, and
    some solvers turn feet upside down, which the shin shows. Then only the slope is taken from the zero pose. */
 static Mat3 foot_from_rest(const Binder *b, Role foot, const Rest *rest) {
-    static const double STEEP = 0.87;   /* sine of the fall: a foot that points down or up and tells no sole */
+    static const double UPRIGHT = 0.87; /* sine of the fall: a line that points down or up and tells no sole */
     static const double ASTRIDE = 0.12; /* sine of the thigh's lean to the side */
     int joint = b->f->roles.joint[foot];
     Mat3 flat = rest_bind(rest, joint);
     Vec3 along = mat_apply(mat_transpose(rest->pose[joint].r), rest_bone(rest, b->f, foot)), up = mat_column(flat, 1);
     double fall = -vec_dot(along, up);
-    if (fabs(fall) > STEEP || vec_dot(along, mat_column(flat, 2)) <= 0) return flat;
+    if (fabs(fall) > UPRIGHT || vec_dot(along, mat_column(flat, 2)) <= 0) return flat;
     bool astride = fabs(vec_dot(rest_bone(rest, b->f, foot - 1), mat_column(rest->frame, 0))) > ASTRIDE;
     bool flipped = vec_dot(vec_cross(up, along), vec_cross(up_the_shin(b, foot, along), along)) < 0;
     return sole(along, astride || flipped ? up_of_sole(b, foot, along, asin(fall)) : up, asin(fall));
@@ -85,31 +87,52 @@ static Vec3 up_by_hips(const Binder *b, Role foot, Vec3 along) {
     return vec_unit_or(vec_cross(along, left), vec(0, 1, 0));
 }
 
+/* Is the foot's line shorter than any foot? Then, if it goes on along the shin, it ends at the ground below the ankle. */
+static bool is_short(const Binder *b, Role foot) {
+    static const double SHORT = 0.06; /* statures */
+    int tip = ball(b, foot);
+    return tip >= 0 && vec_len(binder_offset(b, b->f->roles.joint[foot], tip)) < SHORT * b->f->height;
+}
+
+/* By how much the foot's line falls in the frames in which the foot stands, on the mean, radians. */
+static double fall_in_stance(const Binder *b, Role foot) {
+    int joint = b->f->roles.joint[foot], frames[SAMPLE_BEST_MAX], n = standing(b, foot, frames);
+    Vec3 along = vec_unit_or(binder_offset(b, joint, ball(b, foot)), vec(0, 0, 0));
+    double fall = 0;
+    for (int i = 0; i < n; i++)
+        fall += asin(clamp(-mat_apply(binder_rotation(b, frames[i], joint), along).y, -1, 1)) / n;
+    return fall;
+}
+
+/* No foot that stands falls by more than this, radians. */
+static const double STEEP = 1;
+
 /* From the frames in which the foot stands: the slope is the mean fall of its line there, within UNUSUAL radians of the
-   usual one. False where the foot has no end. */
+   usual one. False where the foot has no end, or one below the ankle. */
 static bool foot_from_frames(const Binder *b, Role foot, Mat3 *bind) {
     static const double SINE_MOST = 0.7, UNUSUAL = 0.2;
     static const double ALONG_SHIN = 0.3; /* sine between foot and shin, below which the shin tells no roll */
-    int joint = b->f->roles.joint[foot], tip = ball(b, foot), frames[SAMPLE_BEST_MAX];
+    int joint = b->f->roles.joint[foot], tip = ball(b, foot);
     if (tip < 0) return false;
     Vec3 along = binder_offset(b, joint, tip);
-    double size = vec_len(along), slope = 0, rise = FIGURE_FOOT_RISE * b->f->height;
+    double size = vec_len(along), slope = fall_in_stance(b, foot), rise = FIGURE_FOOT_RISE * b->f->height;
     double usual = asin(clamp(rise / size, 0, SINE_MOST));
     along = vec_scale(along, 1 / size);
     if (!(size > 0)) return false;
-    if (vec_len(vec_cross(up_the_shin(b, foot, along), along)) < ALONG_SHIN) {
+    bool along_shin = vec_len(vec_cross(up_the_shin(b, foot, along), along)) < ALONG_SHIN;
+    if (is_short(b, foot) && (along_shin || slope > STEEP)) return false;
+    if (along_shin) {
         *bind = sole(along, up_by_hips(b, foot, along), usual);
         return true;
     }
-    int n = standing(b, foot, frames);
-    for (int i = 0; i < n; i++)
-        slope += asin(clamp(-mat_apply(binder_rotation(b, frames[i], joint), along).y, -1, 1)) / n;
     *bind = sole(along, up_of_sole(b, foot, along, usual), clamp(slope, usual - UNUSUAL, usual + UNUSUAL));
     return true;
 }
 
 bool bind_foot(const Binder *b, Role foot, const Rest *rest, Mat3 *out) {
-    if (!rest->human) return foot_from_frames(b, foot, out);
+    bool ends_below = ball(b, foot) >= 0 && (is_short(b, foot) || fall_in_stance(b, foot) > STEEP);
+    bool told = rest->human && (rest->soles || ends_below);
+    if (!told) return foot_from_frames(b, foot, out);
     *out = foot_from_rest(b, foot, rest);
     return true;
 }

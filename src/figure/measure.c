@@ -112,7 +112,7 @@ static double ankle_height(const Sample *s, const Rest *rest, const Figure *f, R
     int ankle = f->roles.joint[foot], tip = f->toward[foot], toe = f->roles.joint[foot + 1], frames[SAMPLE_BEST_MAX];
     if (ankle < 0 || tip < 0) return -1;
     if (toe < 0) toe = tip;
-    if (rest->human) {
+    if (rest->human && rest->soles) {
         Vec3 up = mat_column(rest->frame, 1), from = rest_place(rest, ankle);
         return fmax(vec_dot(up, vec_sub(from, rest_place(rest, tip))),
                     vec_dot(up, vec_sub(from, rest_place(rest, toe))));

@@ -1,6 +1,7 @@
 /* Is the zero pose a human who stands? If so, the whole binding follows from it; if not, nothing in it may be believed.
-   So the tests are strict where a heap of bones could pass (feet along the shins, both arms to one side) and lenient
-   where rigs differ (legs astride, arms anywhere from level to hanging).
+   So the tests are strict where a heap of bones could pass (legs or both arms to one side, feet that point up) and
+   lenient where rigs differ (legs astride, arms anywhere from level to hanging). Feet that go on along the shins are
+   left out of it: in some rigs the line from the ankle only ends at the ground.
 
    Takes of rigs whose zero pose is a heap often begin with a T-pose, which tells as much. But the first frame may also
    belong to the motion itself, with a body that is turned and bent: so there arms and legs must be straight. */
@@ -60,16 +61,18 @@ static double lopsided(const Figure *f, const Rest *rest, Role role, Vec3 *bone)
 
 /* Some exporters take a frame of the motion for the zero pose. Then the legs stride, and are not each other's mirror
    image. */
-static bool legs_are_human(const Figure *f, const Rest *rest) {
+static bool legs_are_human(const Figure *f, Rest *rest) {
     static const Role bones[] = {ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH, ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN};
     Vec3 bone;
     for (int i = 0; i < 4; i++)
         if (lopsided(f, rest, bones[i], &bone) > LEGS_LOPSIDED || bone.y > -LEGS_DOWN) return false;
+    rest->soles = true;
     for (int side = 0; side < 2; side++) {
         Role foot = side ? ROLE_RIGHT_FOOT : ROLE_LEFT_FOOT;
         if (f->toward[foot] < 0) continue;
         double along = vec_dot(rest_bone(rest, f, foot), rest_bone(rest, f, foot - 1));
-        if (along > ALONG_SHIN || along < UP_SHIN) return false;
+        if (along > ALONG_SHIN) rest->soles = false;
+        if (along < UP_SHIN) return false;
     }
     return true;
 }
