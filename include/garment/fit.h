@@ -13,17 +13,17 @@ typedef struct {
     Binding binding;
 } FitNode;
 
-/* One cubic arc of a ring. Control points 0 and 1 follow node a, 2 and 3 node b, so that arcs
-   that meet at a node keep a common tangent there in every pose. A half arc whose middle station
-   is bound by itself is shaped by that station: its inner points reach as far as they would
-   following `middle`, in the direction that `turn` gives them, which is common to the arcs of the
-   ring that meet at this end. */
+/* One cubic arc of a ring. Control points 0 and 1 follow the node at its start, 2 and 3 the node at its end, so that
+   arcs that meet at a node keep a common tangent there in every pose. A half arc whose middle station has a binding
+   of its own is shaped by that station: each inner point goes as far as it would if it followed `middle`, but in the
+   direction that it would have if it followed `turn`, which is the same for all arcs of the ring that meet there. */
 typedef struct {
     int node[2];
-    Binding middle, turn[2]; /* middle.n == 0: not used */
-    Vec3 rest[4];
+    Binding middle;    /* of the middle station; n == 0: it has none */
+    Binding turn[2];   /* at start and end */
+    Vec3 rest[4];      /* control points in the canonical stance */
     int ring;
-    double unit[4][2]; /* the same points on the unit circle: x to the left, z to the front */
+    double unit[4][2]; /* the same points for a ring that is the unit circle: x to the left, z to the front */
 } FitCurve;
 
 typedef struct {
@@ -38,11 +38,11 @@ typedef struct {
     int panel, row;  /* panel -1: raw patch `row` */
     int point[16];
     bool flip;       /* du x dw points into the body */
-    unsigned collide;/* roles, bit 1 << role: parts that it is worn over; all others come to it from outside */
+    unsigned collide;/* roles of the parts that it is worn over, bits 1 << role; all others come to it from outside */
     unsigned pinned; /* sides that may not move, bit 1 << Side */
 } FitPatch;
 
-/* What the envelope needs of a ring, in the canonical stance: where its centre is (y, z), and its half sizes. */
+/* What the envelope needs of a ring in the canonical stance: its centre (y, z) and half sizes, metres. */
 typedef struct { double y, side, front, back, z; } FitRing;
 
 typedef struct {
@@ -50,7 +50,7 @@ typedef struct {
     double scale;      /* girth of the figure against the reference */
     double height;     /* stature, metres */
     int nnodes, ncurves, npanels, npatches, npoints;
-    int nopenings;     /* loops of sides that are sewn to nothing: waist, hem, cuffs */
+    int nopenings;     /* loops of border sides: waist, hem, cuffs */
     FitNode *node;
     FitCurve *curve;
     FitPanel *panel;

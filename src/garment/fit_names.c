@@ -1,4 +1,5 @@
-/* What names tell once they are given: a side that no other side is named like is a border. */
+/* Names of control points, once they are given: they are numbered, and a side with names that no other side has is a
+   border. */
 #include "garment/fit_parts.h"
 
 void fit_side(const FitPatch *patch, Side side, int out[4]) {
@@ -18,7 +19,7 @@ static bool is_border(const Fit *f, int patch, Side side) {
     return true;
 }
 
-/* Border sides hang together at corners; each loop of them is an opening. label: npoints values. */
+/* Border sides are connected at corners; each loop of them is an opening. label: room for npoints values. */
 static int count_openings(const Fit *f, int *label) {
     int loops = 0;
     for (int k = 0; k < f->npoints; k++) label[k] = -1;
