@@ -87,7 +87,8 @@ static Vec3 up_by_hips(const Binder *b, Role foot, Vec3 along) {
     return vec_unit_or(vec_cross(along, left), vec(0, 1, 0));
 }
 
-/* Is the foot's line shorter than any foot? Then, if it goes on along the shin, it ends at the ground below the ankle. */
+/* Is the foot's line shorter than any foot? Then, if it goes on along the shin, it ends at the ground below the
+   ankle. */
 static bool is_short(const Binder *b, Role foot) {
     static const double SHORT = 0.06; /* statures */
     int tip = ball(b, foot);
