@@ -51,6 +51,7 @@ typedef struct {
     Vec3 *global, *point;             /* per mesh vertex: global shape, final shape */
     double *clearance;                /* per mesh vertex: the distance that it has to keep, metres */
     double slack;                     /* share of the clearance that may be missing in this sweep */
+    double reach;                     /* vertices farther from the body are no samples in this round, metres */
     bool takes_back;                  /* may samples take their pushes back in this sweep? */
     double taken;                     /* the most that one of them has taken back in it, metres */
     Near *near;                       /* per mesh vertex: the parts near it */

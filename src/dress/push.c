@@ -13,7 +13,8 @@
 
 /* Caps and tolerances, metres on a figure of 1.70 m where they are lengths. */
 enum { SWEEPS_MAX = 30, STALL = 3, ROUNDS_MAX = 3 };
-static const double REACH = 0.04;    /* vertices farther from the body are no samples */
+static const double REACH = 0.015, REACHES_ON = 0.03; /* vertices farther from the body are no samples: in the first
+                                                        round; in the next ones, if anything has moved farther */
 static const double SLACK = 0.1;     /* share of the clearance that may be missing after the sweeps */
 static const double PIN_GIVES = 0.2; /* a pinned level vertex of the finest level moves this share of what a free one
                                         would, */
@@ -277,7 +278,7 @@ static double push_sample(Push *p, PushSample *s, PushResult *result) {
     const BodyFrame *body = p->body;
     if (s->budget >= 0 && is_pinched(p, s)) return 0;
     double clearance = p->clearance[s->vertex], enough = enough_for(p, s), most = 0;
-    double far = clearance + REACH * p->field.scale, weight[LATTICE_LEVELS][4];
+    double far = clearance + p->reach, weight[LATTICE_LEVELS][4];
     if (!needs_asking(p, s, weight)) return 0;
     EscapePoint at;
     escape_at(&at, p->sheet->place[s->vertex], s->near.seen, clearance);
@@ -355,9 +356,12 @@ void push_rest(Push *p) {
 void push_solve(Push *p, PushResult *result) {
     double moved = INFINITY;
     field_drop_spots(&p->field.dent);
-    for (int round = 0; round < ROUNDS_MAX && moved >= REACH * p->field.scale; round++) {
+    for (int round = 0; round < ROUNDS_MAX && moved >= p->reach; round++) {
+        double reach = (round == 0 ? REACH : REACHES_ON) * p->field.scale;
+        if (reach > p->reach) p->near_known = false;
+        p->reach = reach;
         find_samples(p);
-        moved = sweep_all(p, result); /* if less than REACH, no vertex that was far away can have come near */
+        moved = sweep_all(p, result); /* if less than its reach, no vertex that was far away can have come near */
     }
     if (moved > 0) find_points(p);
 }
