@@ -185,7 +185,7 @@ static void test_names(void) {
         {"ValveBiped.Bip01_R_UpperArm", -1, PART_UPPER_ARM}, {"lfemur", 1, PART_THIGH}, {"LUArm", 1, PART_UPPER_ARM},
         {"UpperLeftArm", 1, PART_UPPER_ARM}, {"L_lowArm_jnt", 1, PART_FOREARM}, {"mElbowRight", -1, PART_FOREARM},
         {"CC_Base_L_Calf", 1, PART_SHIN}, {"mixamorig:RightToeBase", -1, PART_TOE}, {"l_up_leg", 1, PART_THIGH},
-        {"LUARM", 1, PART_UPPER_ARM}, {"RFARM", -1, PART_FOREARM},
+        {"LUARM", 1, PART_UPPER_ARM}, {"RFARM", -1, PART_FOREARM}, {"RtForearm", -1, PART_FOREARM},
         {"lowerneck", 0, PART_NECK}, {"Head_M", 0, PART_HEAD},
     };
     for (size_t i = 0; i < sizeof hints / sizeof hints[0]; i++) {
@@ -305,6 +305,36 @@ static void test_two_roots(void) {
     rig_close(&r);
 }
 
+/* nameless.bvh of a character whose name stands in front of every joint's but the first. */
+static void write_called(const char *path, const char *who) {
+    FILE *in = fopen("tests/data/figure/nameless.bvh", "r"), *out = fopen(path, "w");
+    char line[4096];
+    while (fgets(line, sizeof line, in)) {
+        const char *name = strstr(line, "JOINT ");
+        if (name) fprintf(out, "JOINT %s%s", who, name + 6);
+        else fputs(line, out);
+    }
+    fclose(in);
+    fclose(out);
+}
+
+static void test_called(void) {
+    static const char *const who[] = {"Left Hand:", "root_", "Heads|Wings|"};
+    Rig plain, called;
+    bool good = rig_roles(&plain, "tests/data/figure/nameless.bvh", NULL);
+    for (int i = 0; good && i < 3; i++) {
+        const char *path = in_folder("called.bvh");
+        int wrong = 0;
+        write_called(path, who[i]);
+        good = rig_roles(&called, path, NULL);
+        for (int r = 0; good && r < ROLE_COUNT; r++)
+            wrong += called.roles.joint[r] != plain.roles.joint[r];
+        OK(good && wrong == 0, "'%s' in front of every name tells nothing of the bones: %d others", who[i], wrong);
+        rig_close(&called);
+    }
+    rig_close(&plain);
+}
+
 static void test_oddities(void) {
     Rig r;
     OK(rig_roles(&r, "tests/data/figure/swapped.bvh", NULL) &&
@@ -422,6 +452,7 @@ int main(void) {
     test_not_human();
     test_oddities();
     test_two_roots();
+    test_called();
     test_role_files();
     mirrors_are_their_own_mirror();
     folder_remove();

@@ -60,6 +60,8 @@ static const char *naming(const Skeleton *s) {
         {"CC_Base", "Character Creator"},
         {"DEF-", "Rigify"},
         {"L_Hip", "SMPL"},
+        {"left_hip", "SMPL"},
+        {"LeftUpperLeg", "Unity"},
         {"ShoulderLeft", "Kinect"},
         {"\xe5\xb7\xa6\xe8\xb6\xb3", "MikuMikuDance"}, /* the left leg */
         {"_jnt", "Maya rig"},

@@ -31,9 +31,9 @@ static const char *const strangers[] = {
 /* Left and right: in Latin letters as words of a name, in others wherever they stand. */
 typedef struct { const char *word; int side; } Side;
 static const Side sides[] = {
-    {"l", 1}, {"left", 1}, {"links", 1}, {"gauche", 1}, {"izq", 1}, {"izquierda", 1}, {"izquierdo", 1}, {"sx", 1},
-    {"sinistra", 1}, {"sinistro", 1}, {"r", -1}, {"right", -1}, {"rechts", -1}, {"droite", -1}, {"droit", -1},
-    {"der", -1}, {"derecha", -1}, {"derecho", -1}, {"dx", -1}, {"destra", -1}, {"destro", -1},
+    {"l", 1}, {"left", 1}, {"lt", 1}, {"links", 1}, {"gauche", 1}, {"izq", 1}, {"izquierda", 1}, {"izquierdo", 1},
+    {"sx", 1}, {"sinistra", 1}, {"sinistro", 1}, {"r", -1}, {"right", -1}, {"rt", -1}, {"rechts", -1}, {"droite", -1},
+    {"droit", -1}, {"der", -1}, {"derecha", -1}, {"derecho", -1}, {"dx", -1}, {"destra", -1}, {"destro", -1},
 };
 static const Side foreign_sides[] = {
     {"\xe5\xb7\xa6", 1}, {"\xe5\x8f\xb3", -1},                                             /* Japanese, Chinese */
