@@ -4,15 +4,15 @@
 
 #include "garment/fit.h"
 
-/* What a hip bent forwards does to the front of the tube. */
+/* What a hip that is bent forwards does to the front of the tube. */
 typedef struct {
-    double hangs;                      /* 0..1: how far it hangs between pelvis and lap, instead of turning with the
-                                          legs, */
-    double gathers;                    /* 0..1: and is gathered at the waist, over a thigh against the belly */
-    double lap;                        /* metres below the hip joints along the leg: where the lap begins */
+    double hangs;                      /* 0..1: how far the front hangs between pelvis and lap, instead of turning with
+                                          the legs */
+    double gathers;                    /* 0..1: how far it is gathered at the waist, since the thigh is at the belly */
+    double lap;                        /* metres below the hip joint along the leg: where the lap begins */
 } Bend;
 
-/* One pose seen by the envelope; private inside. */
+/* The envelope in one pose; private inside. */
 typedef struct {
     const Fit *fit;
     const Body *body;
@@ -29,11 +29,11 @@ typedef struct {
 /* Prepares the rings for a pose. */
 void envelope_pose(Envelope *env, const Fit *fit, const Figure *figure, const Body *body, const Pose *pose);
 
-/* A point of the tube: s metres below the hip joints along the body (negative above), (x, z)
-   on the unit circle of the ring, x to the left, z to the front. World frame, metres. */
+/* A point of the tube: s metres below the hip joints along the body (negative above), at (x, z) on the ring if that
+   were the unit circle, x to the left, z to the front. World frame, metres. */
 Vec3 envelope_point(const Envelope *env, double s, double x, double z);
 
-/* s of a ring of the fit. */
+/* The s of a ring of the fit. */
 double envelope_place(const Envelope *env, int ring);
 
 #endif

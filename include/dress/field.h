@@ -1,32 +1,34 @@
-/* The displacement field: what the body has pushed the cloth aside. See dress/lattice.h for its
-   levels and weights. World frame, metres. */
+/* The displacement field: by how much the body has pushed the cloth aside. Its levels and weights are explained in
+   dress/lattice.h. World frame, metres. */
 #ifndef DRESS_FIELD_H
 #define DRESS_FIELD_H
 
 #include "dress/tessellate.h"
 
-/* Vectors of single places; all others have none. */
+/* Vectors of single places. */
 typedef struct {
-    Vec3 *at;                      /* per lattice place, metres */
-    bool *is_listed;               /* per lattice place */
-    int *place, n;                 /* those that have, or had, one */
+    Vec3 *at;                      /* per lattice place, metres; zero for most */
+    bool *is_listed;               /* per lattice place: is it in the list? */
+    int *place, n;                 /* the list of those that have, or had, a vector */
 } FieldSpots;
 
 typedef struct {
     const Lattice *lattice;
     double scale;                  /* lengths inside the method, relative to 1.70 m */
     double cap;                    /* no vertex is moved farther, metres */
-    int start[LATTICE_LEVELS + 1]; /* level l's vertices are start[l]..start[l + 1) */
+    int start[LATTICE_LEVELS + 1]; /* level l has the level vertices start[l] to start[l + 1] - 1 */
     Vec3 *displacement;            /* per level vertex */
-    FieldSpots offset;             /* the last millimetres of single vertices */
-    FieldSpots dent;               /* how far they are pressed in from outside */
+    FieldSpots offset;             /* of single vertices, out of own parts (dress/settle) */
+    FieldSpots dent;               /* of single vertices, pressed in by arms (dress/dent) */
     Mat3 pelvis;                   /* of the frame that the displacement belongs to */
 } Field;
 
-/* What happens to a vector that is carried along. */
+/* What happens to displacement vectors from one frame to the next. */
 typedef struct {
-    Mat3 turn;
-    double fade, most, felt; /* share that is left; metres that it may lose, and below which it is dropped */
+    Mat3 turn;   /* they turn with the pelvis */
+    double fade; /* share of the length that is left, */
+    double most; /* but no more than so many metres are lost */
+    double felt; /* metres below which a vector is dropped */
 } Carry;
 
 MUST_CHECK bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e);
@@ -35,24 +37,23 @@ void field_forget(Field *f);
 /* The displacement of one field into another on the same lattice. */
 void field_copy(const Field *from, Field *to);
 
-/* What happens in dt seconds, up to the frame of `body`, to vectors of the frame that a field belongs to. */
+/* What happens to vectors of the field's frame in the dt seconds up to the frame of `body`. */
 Carry field_carry_to(const Field *f, const BodyFrame *body, double dt);
 
-/* One carried vector; false once it is no longer felt. */
+/* Applies that to one vector; false if it is dropped. */
 bool field_carry_one(Vec3 *d, const Carry *c);
 
-/* Takes the displacement of the last frame along: turned with the pelvis, faded with time (dt
-   seconds), large ones no faster than cloth sinks. What is still felt keeps its cells split. restart: forget it. */
+/* Applies it to the whole field, but drops all dents. What is left keeps its cells split. restart: forgets all. */
 void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leaves *leaves);
 
-/* Holds every vector, but for dents, at most that far from where another field has it; what is displaced then has its
-   cells split. */
+/* Changes every vector, except dents, to be at most `most` metres from that of another field. What is displaced then
+   has its cells split. */
 void field_hold(Field *f, const Field *by, double most, Leaves *leaves);
 
 /* Levels (bit 1 << level) at which anything is displaced. */
 unsigned field_levels(const Field *f);
 
-/* The field at a place: the sum over `levels`, without the offset. */
+/* The displacement at a place: the sum over `levels`, without offset and dent. */
 Vec3 field_at(const Field *f, unsigned levels, int place);
 
 /* d, shortened to `cap`; *capped becomes true if it was longer. */
@@ -65,21 +66,21 @@ static inline Vec3 field_limit(Vec3 d, double cap, bool *capped) {
 
 MUST_CHECK bool field_reserve_spots(FieldSpots *s, int nplaces, Arena *arena, Error *e);
 
-/* Gives a place a vector; takes all of them away. */
+/* field_set_spot gives a place a vector, field_drop_spots drops all. */
 void field_set_spot(FieldSpots *s, int place, Vec3 d);
 void field_drop_spots(FieldSpots *s);
 
 static inline bool field_is_zero(Vec3 d) { return d.x == 0 && d.y == 0 && d.z == 0; }
 
-/* Outward unit normal of the displaced patches at a place (analytic). */
+/* The outward unit normal of the displaced patches at a place, by their derivatives. */
 Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place);
 
-/* The field of `level` as a patch: over the cell of that level that holds a cell of a deeper one. Returns whether
-   anything is displaced there. */
+/* The field of `level` as a patch over that level's cell which holds `cell`, a cell of the level `deeper`. Returns
+   whether anything is displaced there. */
 bool field_patch(const Field *f, LatticeCell cell, int deeper, int level, Patch *out);
 
-/* The displaced patch over cell (a, b) of a level, a leaf or finer: the part of the root patch and
-   the field over it, which is bicubic there. Offsets are left out. */
+/* The displaced patch over a cell of a level, which is a leaf or a part of one: the part of the root patch plus the
+   field over it, which is bicubic there. Without offsets and dents. */
 Patch field_leaf(const Field *f, const Patch *root, LatticeCell cell, int level);
 
 #endif

@@ -9,15 +9,15 @@ typedef struct {
     const Fit *fit;
     const Figure *figure;
     const Body *body;
-    Quat turn[ROLE_COUNT];               /* of every bone in this pose: the way it has turned */
+    Quat turn[ROLE_COUNT];               /* rotation of every bone in this pose, by its sign: which way round */
     Vec3 (*curve)[4];                    /* control points of every curve in this pose */
-    Vec3 (*slope)[GARMENT_ROWS_MAX][2][4]; /* per panel and row: derivative across the rows, as taken by the
-                                              patch above it and by the one below */
-    int (*column)[GARMENT_ROWS_MAX][2];    /* per panel and row, at start and end: which column leads from
-                                              there to the next row */
-    Vec3 (*column_slope)[2];               /* per column, above and below: sum of its panels' slopes, */
-    double (*column_length)[2];            /* of their lengths, */
-    int *column_uses, ncolumns;            /* and how many of them draw it */
+    Vec3 (*slope)[GARMENT_ROWS_MAX][2][4]; /* per panel and row: derivatives across the rows at the curve's control
+                                              points, for the patch above the row and for the one below */
+    int (*column)[GARMENT_ROWS_MAX][2];    /* per panel and row, at start and end: number of the column from there to
+                                              the next row */
+    Vec3 (*column_slope)[2];               /* per column, at its upper and lower node: sum of its panels' slopes, */
+    double (*column_length)[2];            /* sum of their lengths, */
+    int *column_uses, ncolumns;            /* and how many panels have it */
 } Follower;
 
 /* Takes the memory for a fit. Figure and body must outlive it. */

@@ -1,5 +1,5 @@
-/* Splitting and merging without a jump: what is split opens from the facets that were there to the surface, and
-   closes to them again before it is merged (geomorphing, Hoppe 1996). */
+/* Splitting and merging cells without a jump: the new vertices of a cell that is split move from its facets to the
+   surface in a tenth of a second, and back before it is merged (geomorphing, Hoppe 1996). */
 #ifndef DRESS_MORPH_H
 #define DRESS_MORPH_H
 
@@ -7,18 +7,18 @@
 
 typedef struct {
     const Lattice *lattice;
-    double *open[LATTICE_LEVELS];  /* [level][cell], of all cells but the deepest: how far what it is split into has
-                                      come from its facets (0) to the surface (1) */
-    float *share;                  /* per place: that of the cells round it, the most open one's */
+    double *open[LATTICE_LEVELS];  /* [level][cell], for all levels but the deepest: how far the vertices that a cell
+                                      gets by splitting have moved from its facets (0) to the surface (1) */
+    float *share;                  /* per place: the largest `open` of the cells round it that are split there */
 } Morph;
 
 MUST_CHECK bool morph_reserve(Morph *m, const Lattice *lattice, Arena *arena, Error *e);
 
-/* What dt seconds make of it. *leaves: those that are wanted now; those that are no longer wanted stay split in
-   *leaves and *fresh until they have closed. restart: all that is split is open at once. */
+/* Moves on by dt seconds. leaves: those that this frame wants; cells that it no longer wants split stay split in
+   *leaves and *fresh until their vertices are back on the facets. restart: all are on the surface at once. */
 void morph_carry(Morph *m, double dt, bool restart, Leaves *leaves, Leaves *fresh);
 
-/* Moves the vertices of a sheet, given on the surface, towards the facets of the coarser one. */
+/* Moves vertices of a sheet, whose points are given on the surface, towards the facets of the coarser grid. */
 void morph_points(const Morph *m, const Sheet *sheet, Vec3 *point);
 
 #endif

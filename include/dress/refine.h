@@ -25,7 +25,7 @@ void leaves_copy(const Leaves *from, Leaves *to);
 /* Splits until the leaves over cell (a, b) of `level` are at that level or deeper. */
 void leaves_split(Leaves *leaves, int patch, int level, int a, int b);
 
-/* Splits until all cells round a level vertex are at its level, so that it may move. */
+/* Splits until all cells round a level vertex are at its level or deeper, so that it may move. */
 void leaves_open(Leaves *leaves, int level, int vertex);
 
 int leaves_count(const Leaves *leaves);

@@ -1,5 +1,5 @@
-/* Boxes in boxes over some triangles of a mesh, to find those in a box or the one nearest to a
-   point. Exact: boxes are doubles, and what touches is found. */
+/* A tree of bounding boxes over triangles of a mesh: finds those that touch a box, and the one nearest to a point.
+   Exact: boxes are doubles, and touching counts. */
 #ifndef GEOMETRY_BOXTREE_H
 #define GEOMETRY_BOXTREE_H
 
@@ -35,11 +35,11 @@ typedef struct {
 BoxWalk boxtree_walk(const BoxTree *tree, Box box);
 int boxtree_next(BoxWalk *walk);
 
-/* Distance from p to the nearest triangle, with that triangle and its point nearest to p (both may be NULL). INFINITY
-   from a tree without triangles, and they stay as they are. */
+/* Distance from p to the nearest triangle. *triangle and *point (either may be NULL): that triangle, and its point
+   nearest to p. A tree without triangles returns INFINITY and sets neither. */
 double boxtree_nearest(const BoxTree *tree, Vec3 p, int *triangle, Vec3 *point);
 
-/* The point of a closed triangle, perhaps collapsed, that is nearest to p. */
+/* The point of a triangle, which may have collapsed, that is nearest to p. */
 Vec3 boxtree_triangle_point(Vec3 p, Vec3 a, Vec3 b, Vec3 c);
 
 static inline bool box_touches(Box a, Box b) {

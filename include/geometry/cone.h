@@ -4,8 +4,8 @@
 
 #include "geometry/vec.h"
 
-/* The unit direction whose largest angle to n > 0 unit vectors is smallest; returns the cosine of that angle.
-   Where every direction is 90 degrees or more from one of them, 0 or less is returned, and any of them. */
+/* *axis: the unit vector whose largest angle to n > 0 unit vectors is smallest. Returns the cosine of that angle. If
+   every direction is 90 degrees or more from one of them, returns 0 or less, and *axis is arbitrary. */
 double cone_axis(const Vec3 *direction, int n, Vec3 *axis);
 
 #endif

@@ -1,5 +1,5 @@
-/* Which of many segments cross which of many triangles: culled by boxes of boxes, decided
-   exactly, counted. The one place where edge-triangle pairs are enumerated. */
+/* Which of many segments intersect which of many triangles: culled by boxes, decided exactly, counted. The only
+   place where edge-triangle pairs are enumerated. */
 #ifndef GEOMETRY_CROSSING_H
 #define GEOMETRY_CROSSING_H
 
@@ -20,7 +20,7 @@ typedef struct {
    crossing_reserve and kept; building allocates nothing. Private inside but for `vectors`. */
 enum { CROSSING_LEVELS = 3 };
 typedef struct {
-    Vectors vectors;      /* to make and compare boxes with; a search goes by those of the edges */
+    Vectors vectors;      /* instruction set to use; a search takes that of the edges */
     int capacity, count;  /* items */
     const Vec3 *position; /* borrowed, as is the next: both must stay until the next build */
     const int *index;     /* per item 2 (segments) or 3 (triangles) vertices */
@@ -44,8 +44,8 @@ Box crossing_box(const CrossingSet *set);
 int crossing_find(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
                   CrossingCount *count);
 
-/* The same pairs in another order, without culling: what a program spends that has no boxes. The
-   yardstick of the experiment. Counts every pair as tested. */
+/* The same pairs in another order, found without culling: the cost for a program without boxes, with which the paper's
+   experiment is repeated. Counts every pair as tested. */
 int crossing_find_plainly(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
                           CrossingCount *count);
 

@@ -1,23 +1,24 @@
-/* Normals that see the facets which they shade. */
+/* Vertex normals that point to the same side as the facets that they shade. */
 #ifndef GEOMETRY_FACING_H
 #define GEOMETRY_FACING_H
 
 #include "geometry/mesh.h"
 
-/* The corners (3 * triangle + 0..2) of the vertices that need another look; private. */
+/* Private. A corner is 3 * triangle + 0..2. */
 typedef struct {
-    int *corner;  /* per vertex: the first one */
+    int *corner;  /* per vertex that needs another normal: its first corner */
     int *next;    /* per corner: the next one of the same vertex */
     int capacity; /* room for creases */
     Crease *crease;
 } Facing;
 
-/* Memory for meshes that are no larger. */
+/* Takes memory for meshes of up to that size. */
 MUST_CHECK bool facing_reserve(Facing *f, int vertices, int triangles, Arena *arena, Error *e);
 
-/* Normals of vertices that look away from one of the facets there, or nearly so, become those nearest to all of
-   them; where no normal sees them all, corners get creases, which are f's. mesh->normal has room for twice as
-   many normals as vertices were reserved. Done twice it changes nothing more. */
+/* Replaces the normal of a vertex that points away from one of its facets, or nearly, by the one that is nearest to
+   all of them. If no normal points to the same side as all of them, some of their corners get normals of their own
+   (creases, which belong to f). mesh->normal must have room for twice as many normals as vertices were reserved. A
+   second call changes nothing. */
 void facing_mend(const Facing *f, Mesh *mesh);
 
 #endif

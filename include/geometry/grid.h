@@ -1,5 +1,5 @@
-/* Patches on grids: many points and normals of one patch at a time, to the bit what bezier_point
-   and bezier_normal give. */
+/* Many points and normals of one patch at a time, on a grid of parameters: the same bits as bezier_point and
+   bezier_normal give. */
 #ifndef GEOMETRY_GRID_H
 #define GEOMETRY_GRID_H
 
@@ -7,10 +7,10 @@
 #include "geometry/bezier.h"
 #include "geometry/vectors.h"
 
-/* Bernstein values and their derivatives at n parameters, side by side: made once, used for every
-   patch and frame. A part of them, for a part of a patch, is made by moving the pointers. */
+/* Bernstein values and their derivatives at n parameters: made once, used for every patch and frame. For a part of a
+   patch, grid_part gives a part of them. */
 typedef struct {
-    Vectors vectors;             /* to count with; those of the rows of u */
+    Vectors vectors;             /* instruction set to use; grid_points takes that of u */
     int n;
     double *t;                   /* the parameters */
     double *value[4], *slope[4];

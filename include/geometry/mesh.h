@@ -31,12 +31,12 @@ typedef struct {
     Crease *crease;
 } Mesh;
 
-/* What the text "%.6f" of x, read back, is worth: the double nearest to round(x * 1e6) / 1e6
-   (for |x| < 1e9; never -0). */
+/* The double that a reader gets from the text "%.6f" of x: the one nearest to round(x * 1e6) / 1e6 (for |x| < 1e9;
+   never -0). */
 double mesh_snap(double x);
 Vec3 mesh_snap_point(Vec3 p);
 
-/* The same for n points times `unit`, which may stay where they are, with any vectors. */
+/* The same for n points times `unit`. to == from is allowed. */
 void mesh_snap_points(Vectors vectors, const Vec3 *from, double unit, int n, Vec3 *to);
 
 /* Fills mesh->edge and nedges from the triangles, each undirected edge once, in order of

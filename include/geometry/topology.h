@@ -1,13 +1,13 @@
-/* What hangs together in a mesh: vertices in one place are one, sides that join the same two are one. */
+/* Which triangles of a mesh share an edge, if vertices with the same coordinates count as one. */
 #ifndef GEOMETRY_TOPOLOGY_H
 #define GEOMETRY_TOPOLOGY_H
 
 #include "base/arena.h"
 #include "geometry/mesh.h"
 
-/* A side of a triangle, from the view of the edge that it lies on. */
+/* A side of a triangle, as one of those that lie on an edge. */
 typedef struct {
-    int low, high;  /* its ends, joined; low < high */
+    int low, high;  /* its ends, as Topology.joined has them; low < high */
     int triangle;
     int way;        /* 1: the triangle runs from low to high, -1: from high to low */
 } Side;
@@ -19,7 +19,7 @@ typedef struct {
     Side *side;
 } Topology;
 
-/* Of the triangles with wanted[t] (NULL: all). A side without length (both ends in one place) is left out. */
+/* wanted[t]: does triangle t count? NULL: all do. Sides without length are left out. */
 MUST_CHECK bool topology_find(const Mesh *mesh, const bool *wanted, Arena *arena, Topology *out, Error *e);
 
 /* How many sides from side i on lie on the same edge. */

@@ -1,19 +1,19 @@
-/* The kinds of vectors that a processor may have; the same is computed with any of them. */
+/* SIMD instruction sets. Whichever is used, results are the same to the bit. */
 #ifndef GEOMETRY_VECTORS_H
 #define GEOMETRY_VECTORS_H
 
 #include <stdbool.h>
 
-/* BEST: the widest at hand. PLAIN: what the compiler makes of C for every machine. */
+/* BEST: the widest that this machine has. PLAIN: none, the compiler's code for every machine. */
 typedef enum { VECTORS_BEST, VECTORS_PLAIN, VECTORS_AVX2, VECTORS_AVX512, VECTORS_COUNT } Vectors;
 
-/* The same but for BEST, which becomes what it stands for. */
+/* v, or, for BEST, the widest that this machine has. */
 Vectors vectors_pick(Vectors v);
 
-/* Has this machine these? */
+/* Does this machine have it? */
 bool vectors_usable(Vectors v);
 
-/* A function compiled for such vectors; only where VECTORS_ARE_X86. */
+/* Attributes of a function that is compiled for an instruction set; only where VECTORS_ARE_X86 is defined. */
 #if defined(__x86_64__) && defined(__GNUC__)
 #define VECTORS_ARE_X86 1
 #define FOR_AVX2 __attribute__((target("avx2")))

@@ -1,14 +1,13 @@
-/* A border that comes near itself is either folded narrowly, then the way along it is not much
-   longer than the way across, or it is the lip of a crack, whose other lip is far along the
-   border or on another piece of it, with the cloth on the other side: where it is on the same side, two
-   hems touch, as those of trousers do when feet stand close. */
+/* Where a border comes near to itself there are three cases. A narrow fold: the way along the border is not much
+   longer than the way across. Two hems that touch, as those of trousers do when the feet are close: the cloth is on
+   the same side of both. Else it is a crack, with cloth on both sides of it. */
 #include "dress/border.h"
 
 #include "geometry/boxtree.h"
 #include "geometry/sets.h"
 #include "geometry/topology.h"
 
-/* Up to so many times the distance across, the way along is that of a corner or a narrow fold. */
+/* Up to so many times the distance across, the way along the border is that of a corner or a narrow fold. */
 static const double FOLD = 6;
 /* Cosine between the directions into the cloth above which it is on the same side of both borders. */
 static const double SAME_SIDE = 0.5;
@@ -24,7 +23,7 @@ typedef struct {
     BoxTree tree;
 } Rim;
 
-/* Of the corners of its triangle only one is not on the line of a side. */
+/* The unit vector into the triangle of a side, perpendicular to the side: only one of the corners is off its line. */
 static Vec3 inward(const Mesh *mesh, const Side *side) {
     const int *v = mesh->triangle[side->triangle].v;
     Vec3 a = mesh->position[side->low], sum = {0, 0, 0}, none = {0, 0, 0};

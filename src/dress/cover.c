@@ -1,5 +1,5 @@
-/* A group's shape tells its bone: the axis is the direction in which its vertices spread most. A
-   ring of cloth round a point of that axis stops every ray that leaves it at a right angle. */
+/* Rays from a place on a bone, at right angles to it: cloth that goes all round stops all of them. The bone of a
+   group is found from its shape alone: its axis is the direction in which the vertices spread most. */
 #include "dress/cover.h"
 
 #include <string.h>

@@ -1,26 +1,30 @@
-/* The envelope. A ring of a skirt is not tied to one bone: it is the smallest ellipse that holds
-   the discs of both legs where they are in this pose, widened to its rest size as long as the
-   legs leave cloth for it. Since the global shape already contains the legs, what is left for
-   the local deformation is small, and the body's normal is the right way to push.
+/* The envelope. A ring of a skirt does not follow one bone: it is a small ellipse that holds the cross-sections of
+   both legs in this pose, widened to its rest size as far as the legs leave cloth for it. Since the global shape
+   then contains the legs, little is left for the local deformation, and the body's normal is the right direction to
+   push.
 
-   Along the body a ring stands at arc length s: above the hip joints on the pelvis axis, below on
-   the mean of two paths down the legs. The paths are lines with kinks at hip and knee, rounded by
-   a triangular window; such a convolution has a closed form. */
+   A ring stands at arc length s along the body: above the hip joints on the axis of the pelvis, below them on the
+   mean of two paths down the legs. The paths are straight lines with kinks at hip and knee, smoothed by a triangular
+   window; this convolution has a closed form. */
 #include "dress/envelope.h"
 
 /* Lengths are in centimetres of a figure of 1.70 m. */
-static const double SHIN_SHARE = 0.5;  /* of the shin's turn: 1 folds the hem behind a bent knee, 0 lets the shin out */
-static const double ROUNDING_CM = 10;  /* of the kinks: a thigh's radius */
-static const double TURN_LIMIT = 115 * PI / 180; /* a ring may not turn past the seat */
-static const double SLANT_LIMIT = 0.4; /* cosine: a leg's section by the plane of a ring grows no longer than at that */
-static const double ABOVE_CM = 8, BELOW_CM = 10; /* the hip joints: between them rings turn from pelvis to legs */
-static const double LEG_ROOM_CM = 2.2; /* round a leg that a ring holds: the leg swings in it */
-static const double APART_CM = 3;      /* what is left of the width between legs that cross */
-static const double SPARE_CM2 = 10;    /* corner of the cloth that legs leave: it runs out softly */
+static const double SHIN_SHARE = 0.5;  /* share of the shin's turn that the path takes at the knee: with 1 the hem
+                                          would fold behind a bent knee, with 0 the shin would stick out */
+static const double ROUNDING_CM = 10;  /* half width of the window: a thigh's radius */
+static const double TURN_LIMIT = 115 * PI / 180; /* a ring turns no farther from the pelvis: it would pass the seat */
+static const double SLANT_LIMIT = 0.4; /* least cosine between a leg and a ring's axis: a leg that slants more is cut as
+                                          if it had this one */
+static const double ABOVE_CM = 8, BELOW_CM = 10; /* above and below the hip joints, where rings turn from the pelvis to
+                                                    the legs */
+static const double LEG_ROOM_CM = 2.2; /* room for swinging round each leg in a ring */
+static const double APART_CM = 3;      /* a ring is so much wider to either side than its legs if they cross */
+static const double SPARE_CM2 = 10;    /* width of the soft corner where the legs take up the last of the cloth */
 static const double LAP_LEAST_CM = 14, LAP_MOST_CM = 26; /* below the hip joints: where the lap of a bent hip begins */
 static const double LAP_CORNER_CM = 2;
-/* Flexion of a hip over which the front comes to hang, and over which it is gathered: a thigh that is level rests under
-   it, one beyond comes to the belly. Beyond a third range it was bent forwards, however it looks from the side. */
+/* Ranges of a hip's flexion, radians: over the first the front comes to hang, until the thigh is level; over the
+   second it is gathered, as the thigh comes to the belly. Beyond the third a thigh that points up was certainly bent
+   forwards. */
 static const double HANGS[2] = {30 * PI / 180, 75 * PI / 180}, GATHERS[2] = {75 * PI / 180, 120 * PI / 180};
 static const double SURELY_FORWARDS[2] = {120 * PI / 180, 150 * PI / 180};
 
@@ -39,7 +43,7 @@ static double ramp_slope(double x, double r) {
     return x < 0 ? a * a / (2 * r * r) : 1 - a * a / (2 * r * r);
 }
 
-/* The path down one leg and its unit tangent. */
+/* The point at s of the path down one leg, and its unit tangent. */
 static Vec3 leg_path(const Envelope *env, int leg, double s, Vec3 *tangent) {
     double r = ROUNDING_CM * env->cm;
     Vec3 at_hip = vec_sub(env->thigh[leg], env->down), at_knee = vec_sub(env->lower[leg], env->thigh[leg]);
@@ -52,8 +56,8 @@ static Vec3 leg_path(const Envelope *env, int leg, double s, Vec3 *tangent) {
     return p;
 }
 
-/* Rest size of the tube at s: a Catmull-Rom spline through the rings' sizes, straight beyond
-   the first and the last. Every value is the same sum of four rings, so the weights are found once. */
+/* Rest size of the tube at s: a Catmull-Rom spline through the rings' sizes, straight beyond the first and the last.
+   All values are the same weighted sum of four rings. */
 static FitRing rest_size(const Envelope *env, double s) {
     const Fit *fit = env->fit;
     int n = fit->garment->nrings, k = 0, at[4];
@@ -86,6 +90,7 @@ static FitRing rest_size(const Envelope *env, double s) {
     return out;
 }
 
+/* Radius of a cylinder that holds the leg at s, metres. */
 static double leg_radius(const Envelope *env, double s) {
     const Body *b = env->body;
     bool shin = s > env->thigh_length[0];
@@ -94,12 +99,14 @@ static double leg_radius(const Envelope *env, double s) {
     return fmax(c.side + fabs(c.x), fmax(c.front + c.z, c.back - c.z));
 }
 
+/* A symmetric 2 x 2 matrix. A matrix C stands for the ellipse u^T C^-1 u = 1 in a ring's plane; C grows with the
+   square of its size. */
 typedef struct {
     double xx, xz, zz;
 } Sym2;
 
-/* An ellipse u^T C^-1 u = 1 that holds two ellipses E round +-delta: the closed form for the discs that E makes
-   of them, which is tight along delta and across it. */
+/* An ellipse that holds two copies of the ellipse e round +-(dx, dz): in coordinates in which e is a unit disc it is
+   tight along (dx, dz) and across it. */
 static Sym2 hold_both(double dx, double dz, Sym2 e) {
     double det = e.xx * e.zz - e.xz * e.xz;
     double size = sqrt(fmax((e.zz * dx * dx - 2 * e.xz * dx * dz + e.xx * dz * dz) / det, 1e-12));
@@ -107,7 +114,8 @@ static Sym2 hold_both(double dx, double dz, Sym2 e) {
     return (Sym2){along * dx * dx + round * e.xx, along * dx * dz + round * e.xz, along * dz * dz + round * e.zz};
 }
 
-/* What a plane cuts out of a leg of radius rho that is slanted to it: (x, z) the leg's unit tangent in the plane. */
+/* The ellipse that a ring's plane cuts out of a leg, a cylinder of radius rho. (x, z): the part of the leg's unit
+   tangent in the plane. */
 static Sym2 cut_leg(double rho, double x, double z) {
     double stretch = rho * rho / fmax(1 - x * x - z * z, SLANT_LIMIT * SLANT_LIMIT);
     return (Sym2){rho * rho + stretch * x * x, stretch * x * z, rho * rho + stretch * z * z};
@@ -122,9 +130,10 @@ static Sym2 root_of(Sym2 c) {
 /* max(0, x) with a soft corner of width r. */
 static double soft_positive(double x, double r) { return 0.5 * (x + sqrt(x * x + r * r)); }
 
-/* The ellipse of a ring for leg centres at +-(dx, dz) in its axes, with what its plane cuts out of a leg, of radius
-   rho: it holds both legs, and keeps the trace of the rest ellipse, which is about its perimeter squared, while it
-   can. Legs that cross keep a little of the width between them. */
+/* The ellipse of a ring. (dx, dz): centre of the left leg in the ring's axes, the right one is opposite; rho: radius
+   of the legs; leg: what the plane cuts out of one. It holds both legs, and keeps the trace of the rest ellipse,
+   about its squared perimeter, as long as the legs leave cloth. share: 0 at the pelvis, where it is the rest
+   ellipse, 1 at the legs. */
 static Sym2 ring_ellipse(const Envelope *env, const FitRing *rest, double rho, double dx, double dz, Sym2 leg,
                          double share) {
     double cm = env->cm, depth = 0.5 * (rest->front + rest->back), apart = APART_CM * cm;
@@ -137,7 +146,8 @@ static Sym2 ring_ellipse(const Envelope *env, const FitRing *rest, double rho, d
                   share * (need.zz + wz) + (1 - share) * depth * depth};
 }
 
-/* Rotation that turns the pelvis' ring frame to a tube direction t, at most to the seat. */
+/* The axes of a ring as columns (left, up, front): those of the pelvis, turned so that down becomes t, by TURN_LIMIT at
+   most. */
 static Mat3 ring_axes(const Envelope *env, Vec3 t) {
     double angle = acos(clamp(vec_dot(t, env->down), -1, 1));
     if (angle > TURN_LIMIT) {
@@ -147,14 +157,14 @@ static Mat3 ring_axes(const Envelope *env, Vec3 t) {
     return mat_mul(mat_between(env->down, t), env->pelvis);
 }
 
-/* Where the plane through `at` with unit normal n cuts a leg that runs through p along t: no farther from p than the
-   leg's path is rounded. */
+/* Where the plane through `at` with unit normal n cuts the leg that runs through p along t; no farther from p than
+   ROUNDING_CM. */
 static Vec3 cut_path(const Envelope *env, Vec3 p, Vec3 t, Vec3 at, Vec3 n) {
     double most = ROUNDING_CM * env->cm, along = fmin(vec_dot(t, n), -SLANT_LIMIT);
     return vec_mad(p, t, clamp(vec_dot(vec_sub(at, p), n) / along, -most, most));
 }
 
-/* The ring that turns with the legs. */
+/* A point of the ring at s that turns with the legs. */
 static Vec3 turning_point(const Envelope *env, double s, double x, double z) {
     double cm = env->cm, share = smoothstep(-ABOVE_CM * cm, BELOW_CM * cm, s);
     Vec3 tangent[2], path[2];
@@ -167,7 +177,7 @@ static Vec3 turning_point(const Envelope *env, double s, double x, double z) {
     for (int leg = 0; leg < 2; leg++) path[leg] = cut_path(env, path[leg], tangent[leg], middle, up);
     FitRing rest = rest_size(env, s);
     Vec3 half = vec_scale(vec_sub(path[0], path[1]), 0.5), slant = vec_scale(vec_sub(tangent[0], tangent[1]), 0.5);
-    /* Rings stand before or behind the legs by half of what front and back differ: for half of that there is room. */
+    /* Half the difference of front and back moves the ring's centre off the legs; half of that adds to their room. */
     double rho = leg_radius(env, s) + LEG_ROOM_CM * cm + 0.25 * fabs(rest.front - rest.back);
     Sym2 leg = cut_leg(rho, vec_dot(slant, ax), vec_dot(slant, az));
     Sym2 m = root_of(ring_ellipse(env, &rest, rho, vec_dot(half, ax), vec_dot(half, az), leg, share));
@@ -176,7 +186,7 @@ static Vec3 turning_point(const Envelope *env, double s, double x, double z) {
     return vec_mad(vec_mad(centre, ax, m.xx * x + m.xz * z), az, m.xz * x + m.zz * z);
 }
 
-/* The same ring as it is at rest, carried by the pelvis. */
+/* The same point of the ring at rest, moved rigidly with the pelvis. */
 static Vec3 pelvis_point(const Envelope *env, double s, double x, double z) {
     FitRing rest = rest_size(env, s);
     double depth = 0.5 * (rest.front + rest.back);
@@ -194,23 +204,24 @@ Vec3 envelope_point(const Envelope *env, double s, double x, double z) {
                  .lap = lerp(of[1].lap, of[0].lap, left)};
     Vec3 turning = turning_point(env, s, x, z);
     if (bend.hangs <= 0) return turning;
-    /* Rings of a bent hip cross in the groin; there the front hangs straight from the pelvis to
-       where the lap begins, and the back keeps the rings that wrap the seat. */
+    /* The rings of a bent hip would cross in the groin. So in front the tube hangs straight from the pelvis to where
+       the lap begins; behind it keeps the rings, which wrap the seat. */
     double top = envelope_place(env, 0), beyond = bend.lap + soft_positive(s - bend.lap, LAP_CORNER_CM * env->cm);
     double down = smoothstep(top, bend.lap, s), from = s < top ? s : lerp(s, top, bend.gathers);
     Vec3 linear = vec_lerp(pelvis_point(env, from, x, z), turning_point(env, beyond, x, z), down);
     return vec_lerp(turning, linear, bend.hangs);
 }
 
-/* By how much a thigh is bent forwards from the direction of the pelvis, 0 to pi; nothing for one to the side or back.
-   One that points up has come there forwards. */
+/* By how much a thigh is bent forwards from the pelvis's down, 0 to pi; 0 for a thigh to the side or back. One that
+   points up has come there forwards. */
 static double flexion_of(const Envelope *env, Vec3 thigh) {
     double down = clamp(vec_dot(thigh, env->down), -1, 1), flexion = acos(down);
     double forwards = vec_dot(thigh, mat_column(env->pelvis, 2)) / fmax(sqrt(1 - down * down), 1e-6);
     return flexion * fmax(smoothstep(0, 0.5, forwards), smoothstep(SURELY_FORWARDS[0], SURELY_FORWARDS[1], flexion));
 }
 
-/* Where the lap begins: a thigh bent far lies against the belly, and comes out of it farther down. */
+/* Where the lap begins, metres along the thigh: a thigh that is bent far is at the belly there, and leaves it farther
+   down. */
 static double lap_of(const Envelope *env, double flexion) {
     FitRing waist = rest_size(env, envelope_place(env, 0));
     double least = LAP_LEAST_CM * env->cm, most = LAP_MOST_CM * env->cm;

@@ -1,13 +1,13 @@
-/* The displacement field, evaluated. Most frames displace little and at few levels, so levels
-   without a displacement are found once and left out. */
+/* The displacement field: evaluated, and carried from frame to frame. Most frames displace little and on few levels, so
+   levels without a displacement are found once and left out. */
 #include "dress/field.h"
 
 #include <string.h>
 
-static const double FADE = 0.8;                   /* of the carried displacement, in 1/30 s, */
-static const double SINK = 0.12;                  /* but no faster than that, metres a second on 1.70 m */
-static const double FELT = 0.0002;                /* metres on 1.70 m: a carried displacement below this is dropped */
-static const double CAP_LOOSE = 7, CAP_TIGHT = 16; /* parts of the height */
+static const double FADE = 0.8;    /* share of a displacement that is left after 1/30 s, */
+static const double SINK = 0.12;   /* but cloth goes back no faster than that, metres a second on 1.70 m */
+static const double FELT = 0.0002; /* metres on 1.70 m: a displacement below this is dropped */
+static const double CAP_LOOSE = 7, CAP_TIGHT = 16; /* the cap is the height divided by this */
 
 bool field_reserve_spots(FieldSpots *s, int nplaces, Arena *arena, Error *e) {
     s->at = ARENA_NEW(arena, Vec3, nplaces, e);
@@ -85,8 +85,9 @@ static void carry_spots(FieldSpots *s, const Carry *c) {
     }
 }
 
-/* Fading lets the cloth sink into what holds it, by as much as is pushed out again. Sunk by centimetres, it
-   would come out at whichever side is near, in one frame here and in the next one there. */
+/* Fading lets the cloth sink into the part that holds it, and the solver pushes it out again. If it sank by
+   centimetres, it would be pushed out on whichever side is nearest, on one side in one frame and on another in the
+   next. */
 void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leaves *leaves) {
     const Lattice *l = f->lattice;
     Carry c = field_carry_to(f, body, dt);
@@ -99,6 +100,7 @@ void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leave
     f->pelvis = body->pose.bone[ROLE_PELVIS].r;
 }
 
+/* d, or the point on the way from `by` to it that is `most` from `by`. */
 static Vec3 held(Vec3 d, Vec3 by, double most) {
     bool far;
     return vec_add(by, field_limit(vec_sub(d, by), most, &far));

@@ -1,8 +1,9 @@
-/* Global deformation. Rings move, panels are lofted through them again in every frame: that keeps
-   a panel smooth across its rows, which points that follow their own bones one by one would not.
+/* Global deformation. Rings move with the body, and panels are lofted through them anew in every frame. That keeps a
+   panel smooth across its rows; control points that follow their bones one by one would not.
 
-   bones: each node of a ring moves with the blend of its bones; the arcs' handles turn with their
-   node. envelope: the rings are those of dress/envelope. Raw patches: point by point (the paper). */
+   Garments that follow bones: each node of a ring moves with a blend of its bones, and the handles of the arcs turn
+   with their node. Garments that follow the envelope: the rings are those of dress/envelope. Raw patches: every
+   control point follows its bones, as in the paper. */
 #include "dress/follow.h"
 
 #include <string.h>
@@ -51,9 +52,9 @@ bool follow_reserve(Follower *f, const Fit *fit, const Figure *figure, const Bod
     return true;
 }
 
-/* A rotation is two quaternions, and between two bones a blend goes the one way round or the other. A bone is taken to
-   have come the shorter way from the one that it hangs on; a thigh the shorter way from a seat, for hips bend
-   forwards to 180 degrees and more, but hardly back. */
+/* Of the two quaternions of a bone's rotation, picks the one with which a blend between bones goes the right way
+   round. A bone has turned the shorter way from the bone that it hangs on; but a thigh the shorter way from sitting,
+   since hips bend forwards by 180 degrees and more, but hardly backwards. */
 static void find_turns(Follower *f, const Pose *pose) {
     static const double SEAT = 60 * PI / 180;
     for (int r = 0; r < ROLE_COUNT; r++) {
@@ -69,8 +70,8 @@ static void find_turns(Follower *f, const Pose *pose) {
     }
 }
 
-/* Weighted bones as one rigid motion, by dual quaternions (Kavan et al. 2007): between two bones
-   of a joint it turns about the joint, so a knee's ring keeps its width however far it bends. */
+/* The blend of weighted bones as one rigid motion, by dual quaternions (Kavan et al. 2007): between the two bones of a
+   joint it turns about the joint, so the ring at a knee keeps its width however far the knee bends. */
 static Rigid blend(const Follower *f, const Pose *pose, const Binding *b) {
     Quat mean = {0, 0, 0, 0};
     Vec3 dual = {0, 0, 0}; /* vector and scalar part of the sum of t q, that is twice the dual part */
@@ -90,8 +91,8 @@ static Rigid blend(const Follower *f, const Pose *pose, const Binding *b) {
     return (Rigid){mat_from_quat((Quat){mean.w / n, v.x / n, v.y / n, v.z / n}), vec_scale(t, 1 / (n * n))};
 }
 
-/* An inner point of a half arc that its middle station shapes; `node` is the arc's end. A handle
-   never shrinks below a share of its rest length, or a leg bent far would turn it over. */
+/* The inner control point at an end of a half arc that its middle station shapes (see FitCurve). node: where that
+   end is. The handle keeps at least LEAST of its rest length, or a leg that is bent far would turn it over. */
 static Vec3 shaped_handle(const Follower *f, const FitCurve *curve, int end, const Pose *pose, Vec3 node) {
     static const double LEAST = 0.3;
     Vec3 rest = curve->rest[1 + end], arm = vec_sub(rest, curve->rest[3 * end]);
@@ -131,10 +132,10 @@ static Vec3 row_slope(const Follower *f, const FitPanel *panel, int r, int k) {
     return vec_sub(vec_scale(chord, 2), row_slope(f, panel, inner, k));
 }
 
-/* Panels that draw the same column between two nodes take the mean of their slopes for it, shortened by how
-   much they disagree, so that it is one curve whoever draws it. Where seams part, as at a crotch or at the
-   bottom of a neckline, each goes its own way from the node: with one slope for all, a crotch would be a
-   spike, and the borders of a neckline would run side by side for a facet. */
+/* Panels that share a column between two nodes must have the same curve there. They take the mean of their slopes at
+   its ends, shortened by how much these disagree. Different columns that leave a node, as at a crotch or at the
+   bottom of a neckline, keep their own slopes: with one slope for all, a crotch would be a spike, and the borders of
+   a neckline would run side by side for a facet. */
 static void share_slopes(Follower *f) {
     const Fit *fit = f->fit;
     memset(f->column_slope, 0, (size_t)f->ncolumns * sizeof *f->column_slope);
@@ -164,7 +165,8 @@ static void slopes_by_rows(Follower *f) {
                 f->slope[p][r][0][k] = f->slope[p][r][1][k] = row_slope(f, &f->fit->panel[p], r, k);
 }
 
-/* Arcs of one ring that meet at a node from both sides get handles on one line. */
+/* Arcs of one ring that meet at a node from opposite sides get handles on one line, so that the ring is smooth
+   there. */
 static void straighten_handles(Follower *f) {
     const Fit *fit = f->fit;
     for (int a = 0; a < fit->ncurves; a++)
@@ -207,8 +209,8 @@ static void curves_by_envelope(Follower *f, const Pose *pose) {
     straighten_handles(f);
 }
 
-/* Parameter length of the row: arc length down the body for the envelope, whose slopes are
-   derivatives by it. */
+/* Parameter length from row r to the next: of an envelope the arc length down the body, by which its slopes are
+   derivatives. */
 static double span(const Follower *f, const FitPanel *panel, int r) {
     const Fit *fit = f->fit;
     if (fit->garment->follow != FOLLOW_ENVELOPE) return panel->height[r];

@@ -1,5 +1,5 @@
-/* Numbering what patches share. Corners are shared by name, edges by the names of their four
-   control points, in either direction; everything else belongs to one patch. */
+/* Numbering what patches share. Corners are shared if their control point has the same name, edges if their four
+   control points have, in either direction; all other places belong to one patch. */
 #include "dress/lattice.h"
 
 #include <string.h>
@@ -70,8 +70,8 @@ static void number_places(Lattice *l, int *corner) {
     }
 }
 
-/* A short sleeve ends above the elbow, but a bent arm brings the forearm to it, and a bent leg the foot to a skirt:
-   cloth that is worn over a bone of a limb has its side of the next one too. */
+/* A short sleeve ends above the elbow, but a bent arm brings the forearm to it, and a bent leg the foot to a skirt. So
+   cloth that is worn over a bone of a limb counts as worn over the next bone too. */
 static unsigned with_next_bones(unsigned collide) {
     unsigned next = 0;
     for (int r = 0; r + 1 < ROLE_COUNT; r++)
@@ -79,9 +79,9 @@ static unsigned with_next_bones(unsigned collide) {
     return collide | next;
 }
 
-/* Colliders and pins of the places. A place on a shared edge is worn over what both patches are worn over: at a
-   crotch, where the legs themselves touch, nothing else can be asked. Where two patches have nothing in
-   common it keeps out of both's. */
+/* Colliders and pins of the places. A place that patches share is worn over the parts that all of them are worn
+   over: at a crotch, where the two legs touch, it cannot keep out of either. If they have no part in common, it is
+   worn over the parts of all. */
 static void mark_places(Lattice *l) {
     for (int place = 0; place < l->nplaces; place++) l->collide[place] = ~0u;
     for (int p = 0; p < l->fit->npatches; p++)

@@ -1,8 +1,8 @@
-/* A patch that is split gets vertices where its facets had none, on the surface, which bulges millimetres over
-   them: at 120 frames a second that is a blow. So such a vertex begins on the side or the diagonal of the facet on
-   which it appears, midway between two vertices of the coarser grid, and goes over to the surface in a fraction of
-   a second; before a patch is merged its vertices go back there. Cells of a level share their vertices with
-   others, which may have been open for long: the most open one decides. */
+/* A cell that is split gets new vertices on the surface, which bulges over its facets by millimetres: at 120 frames
+   a second that is a violent jump. So a new vertex begins on the side or the diagonal of a facet, midway between two
+   vertices of the coarser grid, and moves to the surface in a fraction of a second; before a cell is merged its
+   vertices move back. A vertex may belong to several cells that were split at different times: the one that has
+   moved farthest decides. */
 #include "dress/morph.h"
 
 #include <string.h>
@@ -47,7 +47,7 @@ void morph_carry(Morph *m, double dt, bool restart, Leaves *leaves, Leaves *fres
         }
 }
 
-/* Has all that is split in a sheet come to the surface? */
+/* Are all vertices of a sheet on the surface? */
 static bool is_open(const Morph *m, const Sheet *sheet) {
     for (int level = 0; level < m->lattice->depth; level++)
         for (int k = 0; k < ncells(m->lattice, level); k++)
@@ -55,7 +55,7 @@ static bool is_open(const Morph *m, const Sheet *sheet) {
     return true;
 }
 
-/* Gives the places that a cell gets where it is split its share, if it is more than what they have. */
+/* Gives the places that a cell gets by splitting its share, if theirs is smaller. */
 static void share_out(const Morph *m, LatticeCell c, int level) {
     const Lattice *l = m->lattice;
     int size = l->side >> level, step = 1 << (l->depth - level - 1), i0 = c.a * size, j0 = c.b * size;
@@ -67,8 +67,8 @@ static void share_out(const Morph *m, LatticeCell c, int level) {
         }
 }
 
-/* A vertex that is new on the grid with that many places from one to the next: towards the middle of the two that it
-   stands between. */
+/* Moves a vertex towards the middle of the two that it is between, if it is new on the grid whose neighbours are `step`
+   places apart. */
 static void move_vertex(const Morph *m, const Sheet *sheet, int v, int step, Vec3 *point) {
     const Lattice *l = m->lattice;
     LatticeIndex at = l->owner[sheet->place[v]];

@@ -1,6 +1,6 @@
-/* Samples the garment in the canonical stance. Each sample belongs to the part that is nearest of those
-   that its patch keeps out of, and counts where arm and trunk would touch: on the outer side of
-   trunk and legs, on the inner side of the arms, and in front. */
+/* Samples the garment in the canonical stance. Each sample belongs to the nearest of the parts that its patch is
+   worn over, and counts where arm and trunk would touch (on the outer side of trunk and legs, on the inner side of
+   arms), and in front. */
 #include "dress/padding.h"
 
 #include "dress/follow.h"

@@ -1,5 +1,5 @@
-/* The quadtrees. All cells of one level are tested together: one box tree over their triangles is
-   cheaper than many small ones, and the counts are the same. */
+/* The quadtrees. All cells of one level are tested together: one set of boxes over their triangles is cheaper than many
+   small ones, and the counts are the same. */
 #include "dress/refine.h"
 
 #include <string.h>
@@ -135,8 +135,8 @@ static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, 
     out->nodes += ncells;
 }
 
-/* Cells to split next, as the list of their children's parents: those hit at the top level, and
-   below it those hit in families where no two neighbours are. */
+/* Lists the cells to split next: on the first level all that are hit, below it those that are hit among four
+   children of which no two neighbours are. Returns their number. */
 static int choose(const Classifier *c, int level, int ncells, LatticeCell *out) {
     int n = 0;
     for (int k = 0; k < ncells; k++) {
@@ -146,7 +146,7 @@ static int choose(const Classifier *c, int level, int ncells, LatticeCell *out) 
     return n;
 }
 
-/* Lets the corners of the hit cells move: the field needs all cells round a vertex. */
+/* Lets the corners of the cells that are hit move: for that, all cells round a corner must be split to its level. */
 static void open_corners(const Classifier *c, int level, int ncells, Leaves *leaves) {
     const LatticeLevel *l = &c->lattice->level[level];
     int n = (1 << level) + 1;
@@ -187,8 +187,8 @@ static bool is_inside_limb(const Lattice *l, const BodyFrame *body, int patch, i
     return false;
 }
 
-/* Lets the cloth give way to limbs that touch it from outside, which the rule knows nothing of: splits root
-   patches once where one is inside of them. */
+/* Splits root patches once into which a limb reaches from outside, so that the cloth can give way there. The paper's
+   rule does not know such limbs. */
 static void open_to_limbs(const Classifier *c, const Patch *root, const BodyFrame *body, Leaves *leaves) {
     const Lattice *l = c->lattice;
     const GridRows *rows = &c->rows[l->depth - 1];

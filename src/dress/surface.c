@@ -1,6 +1,6 @@
-/* A leaf's vertices are a grid on its root patch, on the patch that the field is over each cell that holds it, and on
-   the displaced patch that they add up to. Places that patches share have one value, that of the patch that
-   owns them; what lies between the places of its owner's leaves, beside a finer neighbour, is taken alone. */
+/* The vertices of a leaf form a grid on its root patch, and on the field's patch of each level over it: these are
+   evaluated as grids and added up. A place that patches share gets the value of the patch that owns it. A vertex
+   that is on no grid of its owner's leaves, since only a finer neighbour needs it, is evaluated by itself. */
 #include "dress/surface.h"
 
 #include <string.h>
@@ -34,7 +34,7 @@ static bool next_leaf(const Sheet *sheet, int *at, Leaf *leaf) {
     return false;
 }
 
-/* The points of a leaf on a patch that covers the cell `above` levels above it: the part of its grid. */
+/* The points of a leaf on a patch over the cell that holds it, `above` levels above. */
 static void leaf_points(const Surface *s, const Patch *patch, Leaf leaf, int above, Vec3 *out) {
     int detail = s->lattice->detail, mask = (1 << above) - 1;
     GridRows u = grid_part(&s->rows[above], (leaf.cell.a & mask) * detail, detail + 1);
@@ -42,7 +42,7 @@ static void leaf_points(const Surface *s, const Patch *patch, Leaf leaf, int abo
     grid_points(patch, &u, &w, out, NULL);
 }
 
-/* Gives the vertices that a leaf's patch owns their values. */
+/* Copies the values of a leaf's grid to the vertices that its patch owns. */
 static void hand_out(const Sheet *sheet, Leaf leaf, const Vec3 *grid, Vec3 *out) {
     const Lattice *l = sheet->lattice;
     int stride = 1 << (l->depth - leaf.level), patch = leaf.cell.patch;

@@ -1,7 +1,7 @@
-/* A pop is a second difference that the body does not have. With the same triangles in all frames
-   it is taken vertex by vertex. A mesh that is split anew in every frame has no such vertices:
-   then a point of the frame in the middle is looked for in its neighbours. The body beside it,
-   whose vertices are known, says about where it has gone. */
+/* Cloth that jumps has second differences that the body does not have. If all three frames have the same triangles,
+   they are taken vertex by vertex. A mesh that is split differently in each frame has no common vertices: then the
+   points of the middle frame are looked for in the other two. The body beside a point, whose vertices are known in
+   all frames, tells about where it has gone. */
 #include "dress/sway.h"
 
 #include <stdlib.h>

@@ -88,8 +88,7 @@ static void lay_leaf(Sheet *s, int patch, int i0, int j0, int stride) {
         for (int j = 0; j < n; j++) add_facet(s, patch, i0 + i * stride, j0 + j * stride, stride);
 }
 
-/* Does the vertex stand on the grid of the leaf that its owner has there? One on a border between leaves may stand
-   on that of any of them. */
+/* Is a place on the grid of a leaf of its owner? On a border between leaves, of any of them. */
 static bool on_grid(const Lattice *l, const Leaves *leaves, int place) {
     LatticeIndex at = l->owner[place];
     int cells = 1 << l->depth, x = at.i / l->detail, y = at.j / l->detail;

@@ -1,12 +1,12 @@
-/* On the unit sphere the cone is the smallest circle round points, and two or three of these lie on it.
-   Found as in the plane (Welzl 1991): a point outside the circle so far must lie on the new one. */
+/* On the unit sphere the cone is the smallest circle round the vectors' ends, and two or three of these are on it.
+   It is found as in the plane (Welzl 1991): a point outside the circle found so far must be on the new one. */
 #include "geometry/cone.h"
 
 #include <stdbool.h>
 
-static const double EPSILON = 1e-12; /* cosine: that much outside is on the circle */
+static const double EPSILON = 1e-12; /* a point whose cosine is less by this is outside */
 
-/* The same angle from a, b and c, on their side. */
+/* The unit vector at equal angles to a, b and c, on their side. */
 static Vec3 centre(Vec3 a, Vec3 b, Vec3 c) {
     Vec3 axis = vec_unit_or(vec_cross(vec_sub(b, a), vec_sub(c, a)), a);
     return vec_dot(axis, a) < 0 ? vec_scale(axis, -1) : axis;

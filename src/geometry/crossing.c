@@ -1,13 +1,11 @@
-/* Most pairs are far apart, so the work is to not look at them.
+/* Most pairs are far apart; the art is not to look at them.
 
-   Items are boxed in tiles of sixteen (geometry/tile) in the order they come, their tiles are tiled
-   again, and these once more; a search goes down both stacks at once and enters only pairs of
-   tiles whose boxes overlap. No tree is balanced and nothing is sorted, so building is one pass
-   over the items.
+   Items are boxed in tiles of sixteen (geometry/tile) in the order in which they come, their tiles are tiled again,
+   and these once more. A search goes down both hierarchies at once and enters only pairs of tiles whose boxes
+   overlap. Nothing is sorted or balanced, so building is one pass over the items.
 
-   Of the pairs whose own boxes overlap, most still have both ends of the edge on one side of the
-   triangle's plane, farther from it than doubles can err. The few that are left are decided
-   exactly, by predicate_segment_triangle. */
+   Of the pairs whose own boxes overlap, most still have both ends of the edge on one side of the triangle's plane,
+   farther from it than doubles can err. The few that are left are decided exactly, by predicate_segment_triangle. */
 #include "geometry/crossing.h"
 
 #include <float.h>
@@ -234,9 +232,8 @@ static void search_block(Search *s, const Ends *ends, int first, int n, float sl
    by 2 u M more; 16 u M is ample. FLT_MIN covers what underflows.
 
    Each triangle's plane meets sixteen segments at a time, all of them. The few that reach the plane
-   have their boxes looked at before they are decided, so that a pair costs about the same wherever
-   the triangle stands: time then tells the number of pairs. Segments come in blocks that stay in
-   the fastest memory. */
+   have their boxes compared before they are decided, so that a pair costs about the same wherever the triangle is, and
+   time measures the number of pairs. Segments come in blocks that fit into the first-level cache. */
 int crossing_find_plainly(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
                           CrossingCount *count) {
     enum { BLOCK = 64 };

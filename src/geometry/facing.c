@@ -1,17 +1,17 @@
-/* Normals of a surface are smooth across facets however coarse these are. But where the mesh leaves the surface,
-   or a fold is narrower than a facet, one that looks away from a facet shades it black: there it takes the
-   axis of the narrowest cone round the facets' own normals, which sees all of them. Where there is no such
-   cone, facets that the mean does not see get normals of their own, as few as may be. */
+/* Normals of the surface shade smoothly however coarse the facets are. But where the mesh leaves the surface, or a
+   fold is narrower than a facet, a normal may point away from a facet and shade it black. Such a normal becomes the
+   axis of the narrowest cone round the facets' own normals. If that cone is too wide, the facets that are turned
+   away from the mean normal get normals of their own, as few as possible. */
 #include "geometry/facing.h"
 
 #include <stdlib.h>
 
 #include "geometry/cone.h"
 
-static const double AGREEMENT = 0.3; /* cosine to a facet below which a normal is not used, if there are others */
-static const double SEEN = 0.01;     /* cosine: above it a facet is seen, also by the normal that is written */
-enum { FACETS_MAX = 64 };            /* that are asked round one vertex; only at poles are there more */
-enum { NONE = -1, STRAIGHT = -2 };   /* instead of a corner: the last one; the vertex is not bent */
+static const double AGREEMENT = 0.3; /* least cosine between a normal and a facet's, if another normal can be found */
+static const double SEEN = 0.01;     /* least cosine of the cone's axis to all facets: still positive after rounding */
+enum { FACETS_MAX = 64 };            /* round one vertex; only poles have more, which are then left out */
+enum { NONE = -1, STRAIGHT = -2 };   /* instead of a corner: end of the list; the vertex needs no other normal */
 
 bool facing_reserve(Facing *f, int vertices, int triangles, Arena *arena, Error *e) {
     *f = (Facing){.capacity = vertices};
@@ -73,8 +73,8 @@ static void find_fan(const Facing *f, const Mesh *m, int vertex, Fan *fan) {
     fan->mean = vec_unit_or(sum, otherwise);
 }
 
-/* Normals for the facets of a fan that its mean does not see: the first of them gets one, which it shares with
-   all that it can be shared with, and so on. They stand behind those of all vertices. */
+/* Gives normals of their own to the facets of a fan that disagree with its mean: the first of them gets one, which is
+   shared with all that agree with it, and so on. They stand behind the normals of all vertices. */
 static void crease(const Facing *f, const Fan *fan, Mesh *m) {
     bool served[FACETS_MAX];
     for (int k = 0; k < fan->n; k++) served[k] = vec_dot(fan->mean, fan->normal[k]) >= AGREEMENT;

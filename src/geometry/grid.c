@@ -1,11 +1,10 @@
-/* At a fixed w a patch is a cubic along u, whose four control points are cubics along w. For eight w at a
-   time these stand side by side, and then, u by u, so do eight points. The compiler makes vectors of
-   that, as wide as the processor has them; every sum is taken in the order of bezier_point, so
-   wider vectors change no bit.
+/* At a fixed w a patch is a cubic along u, whose four control points are cubics along w. These are computed for
+   eight w at a time (a block of columns of the grid), and then, for each u, eight points. The compiler makes SIMD
+   code of these loops; every sum is taken in the order of bezier_point, so the width of the vectors changes no bit.
 
-   A row seldom ends where eight do. What the last ones write beyond its end, the next row
-   writes over: blocks of columns are done from the last to the first, rows from the first to the last.
-   Only behind the very last row nothing may be written. */
+   The last block of columns may reach beyond the end of a row. What it writes there belongs to the next row, which
+   is written later: rows are done from the first to the last, and blocks from the last to the first. Only after the
+   very last row nothing may be written. */
 #include "geometry/grid.h"
 
 #include <string.h>
@@ -122,7 +121,7 @@ ALWAYS void fill_columns(const Grid *g, int j, int lanes) {
 }
 
 ALWAYS void fill(const Grid *asked) {
-    const Grid here = *asked, *g = &here; /* which nothing that is written can change */
+    const Grid here = *asked, *g = &here; /* a copy: the compiler knows that no write to the points changes it */
     int j = g->w->n / LANES * LANES, left = g->w->n - j;
     if (left > LANES / 2) fill_columns(g, j, LANES);
     else if (left > 0) fill_columns(g, j, LANES / 2);

@@ -1,19 +1,17 @@
-/* One idea, written three times: sixteen boxes stand side by side in arrays, and what is done with
-   one is done with all by a few vector instructions. The plain version says what is meant; the
-   others say the same in vectors of 8 and 16 floats, bit for bit, and are taken where the
-   processor has them. The tests compare all three.
+/* The same functions three times: in plain C, which says what is meant, and with vectors of 8 and of 16 floats,
+   which are used where the processor has them. All give the same bits; the tests compare them.
 
-   Boxes are floats. Rounding keeps order: if x <= y then (float)x <= (float)y. So the rounded
-   boxes of things that touch still touch, and which overlap is the same on every machine. */
+   Boxes are floats. Rounding keeps order: if x <= y then (float)x <= (float)y. So the rounded boxes of things that
+   touch still touch, and which overlap is the same on every machine. */
 #include "geometry/tile.h"
 
 /* --- plain C --- */
 
-/* Written so that each is one machine instruction. */
+/* fminf and fmaxf, but each a single machine instruction. */
 static inline float lesser(float a, float b) { return a < b ? a : b; }
 static inline float larger(float a, float b) { return a > b ? a : b; }
 
-/* The least and the largest of sixteen, by halves, which vectors can do. */
+/* The least and the largest of sixteen, by halves: the compiler makes SIMD code of that. */
 static float least(const float v[TILE_LANES]) {
     float m[8];
     for (int k = 0; k < 8; k++) m[k] = lesser(v[k], v[k + 8]);
@@ -78,7 +76,7 @@ static TileLanes plain_overlap(const Tile *a, const Tile *b, int k) {
     return (TileLanes)found;
 }
 
-/* For each machine the same loop round its own `overlap`. */
+/* The body of `meet`, the same for each instruction set but for its own `overlap`. */
 #define MEET(overlap)                                                                           \
     unsigned any = 0;                                                                           \
     for (unsigned left = lanes; left; left &= left - 1) {                                       \

@@ -1,4 +1,4 @@
-/* Asks the processor, and nobody else does. */
+/* The only place that asks the processor what it has. */
 #include "geometry/vectors.h"
 
 bool vectors_usable(Vectors v) {
