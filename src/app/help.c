@@ -66,7 +66,8 @@ void help_command(const Command *command, FILE *out) {
         if (strcmp(group, o->group) != 0) fprintf(out, "\n%s\n", group = o->group);
         print_option(o, out);
     }
-    fprintf(out, "\nSwitches are taken back by --no-NAME. The last of two equal options wins.\n");
+    fprintf(out, "\n--no-NAME turns a switch off again. A list (motions, garments) grows each time\n"
+                 "it is given; of any other option the last one counts.\n");
 }
 
 static const char exit_codes[] =

@@ -182,6 +182,8 @@ bool summary_merge(const Settings *s, Arena *arena, Error *e) {
     if (!write_all(&m, out.file)) return output_abandon(&out), false;
     for (int i = 0; i < m.count; i++) motions += m.item[i].count;
     if (!output_close(&out, e)) return false;
-    if (!s->quiet) fprintf(stderr, "%d summaries with %d motions joined in '%s'\n", m.count, motions, path);
+    if (!s->quiet)
+        fprintf(stderr, "%d summar%s with %d motion%s joined in '%s'\n", m.count, m.count == 1 ? "y" : "ies", motions,
+                motions == 1 ? "" : "s", path);
     return true;
 }

@@ -73,7 +73,7 @@ static const Column summary_columns[] = {
     {"residual_cloth", "", KIND_LONG, AT(residual_cloth), "sum over the frames"},
     {"inside", "", KIND_LONG, AT(inside), "sum over the frames"},
     {"deepest", "m", KIND_REAL, AT(deepest), "of all frames"},
-    {"limb_frames", "", KIND_INT, AT(limb_frames), "frames where any of these parts shows"},
+    {"limb_frames", "", KIND_INT, AT(limb_frames), "frames where any other part shows (`limb_*`)"},
     {"pinched_frames", "", KIND_INT, AT(pinched_frames), "frames with pinched vertices"},
     {"capped_frames", "", KIND_INT, AT(capped_frames), "frames that reached a cap"},
     {"max_displacement", "m", KIND_REAL, AT(max_displacement), "of all frames"},
