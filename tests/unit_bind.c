@@ -85,6 +85,50 @@ static void test_foot_ends(void) {
     }
 }
 
+/* The take of a rig as bare points: the same tree, in which joints have positions only. offsets: or zero. */
+static const char *as_points(Rig *r, bool offsets) {
+    const char *path = in_folder("points.bvh");
+    const Skeleton *s = &r->motion.skeleton;
+    FILE *out = fopen(path, "w");
+    fputs("HIERARCHY\n", out);
+    for (int i = 0; i < s->njoints; i++) {
+        const Joint *j = &s->joint[i];
+        Vec3 at = offsets ? j->offset : vec(0, 0, 0);
+        const char *kind = j->parent < 0 ? "ROOT" : "JOINT";
+        if (j->is_end) fprintf(out, "End Site { OFFSET %g %g %g", j->offset.x, j->offset.y, j->offset.z);
+        else fprintf(out, "%s %s { OFFSET %g %g %g\nCHANNELS 3 Xposition Yposition Zposition\n", kind, j->name, at.x,
+                     at.y, at.z);
+        int next = i + 1 < s->njoints ? s->joint[i + 1].parent : -1;
+        for (int up = i; up != next; up = s->joint[up].parent) fputs("}\n", out);
+    }
+    fprintf(out, "MOTION\nFrames: %d\nFrame Time: %g\n", r->motion.nframes, r->motion.frame_time);
+    for (int frame = 0; frame < r->motion.nframes; frame++) {
+        rig_pose(r, frame);
+        for (int i = 0; i < s->njoints; i++) {
+            int parent = s->joint[i].parent;
+            Vec3 to = parent < 0 ? r->world[i].t : vec_sub(r->world[i].t, r->world[parent].t);
+            if (!s->joint[i].is_end) fprintf(out, "%.9g %.9g %.9g ", to.x, to.y, to.z);
+        }
+        fputs("\n", out);
+    }
+    fclose(out);
+    return path;
+}
+
+/* Pelvis and chest turn by where legs, arms and spine begin. A head without eyes says next to nothing. */
+static void test_points(void) {
+    for (int offsets = 0; offsets < 2; offsets++) {
+        Rig told, found;
+        if (!OK(rig_open(&told, "tests/data/figure/unity.bvh", NULL), "unity opens")) return;
+        if (!OK(rig_open(&found, as_points(&told, offsets), NULL), "and as points")) return;
+        double pelvis = turn_difference(&told, &found, ROLE_PELVIS), chest = turn_difference(&told, &found, ROLE_CHEST);
+        double foot = foot_difference(&told, &found);
+        OK(pelvis < 9 && chest < 9, "points tell how pelvis and chest turn: %.1f and %.1f degrees off", pelvis, chest);
+        OK(foot < 9, "and feet with toes: %.1f degrees off", foot);
+        close_both(&told, &found);
+    }
+}
+
 /* Who crouches on the toes for the whole take never shows how trunk, head and feet are at rest: the same take with a
    human zero pose tells. */
 static void test_crouch(void) {
@@ -221,6 +265,7 @@ int main(void) {
     test_lying();
     test_turned();
     test_foot_ends();
+    test_points();
     test_crouch();
     test_sacrum();
     test_pose_in_front();

@@ -30,7 +30,7 @@ static Joint joint(const char *name, int parent, Vec3 offset, int n, const Chann
 }
 
 static Rigid pose_one(Joint j, const double *row, bool adds) {
-    Skeleton s = {1, j.nchannels, &j, adds};
+    Skeleton s = {1, j.nchannels, &j, adds, false};
     Rigid world;
     skeleton_pose(&s, row, &world);
     return world;
@@ -81,7 +81,7 @@ static void test_chain(void) {
     Joint j[4] = {joint("root", -1, vec(1, 0, 0), 1, z, 0), joint("arm", 0, vec(2, 0, 0), 1, x, 1),
                   joint("hand", 1, vec(0, 3, 0), 0, NULL, 2), joint("hand_End", 2, vec(0, 1, 0), 0, NULL, 2)};
     j[3].is_end = true;
-    Skeleton s = {4, 2, j, false};
+    Skeleton s = {4, 2, j, false, false};
     const double row[2] = {90, 90};
     Rigid w[4];
     skeleton_pose(&s, row, w);
@@ -102,11 +102,37 @@ static void test_axis(void) {
     NEAR(worst(pose_one(j, row, false).r, about(CHANNEL_RY, 35)), 0, 1e-15, "x of a turned axis is y");
 }
 
+/* Hips with a spine and two legs, a shin and an end site; only positions move them. */
+static void test_points(void) {
+    static const ChannelKind xyz[] = {CHANNEL_TX, CHANNEL_TY, CHANNEL_TZ};
+    Vec3 offset[6] = {{0, 0, 0}, {0, 3, 0.5}, {1, -0.2, 0}, {0, -4, 0}, {0, -1, 0}, {-1, -0.2, 0}};
+    static const int parent[6] = {-1, 0, 0, 2, 3, 0}, first[6] = {0, 3, 6, 9, 12, 12};
+    Joint j[6];
+    double row[15] = {7, 8, 9};
+    Rigid w[6];
+    for (int i = 0; i < 6; i++) j[i] = joint("j", parent[i], offset[i], i == 4 ? 0 : 3, xyz, first[i]);
+    j[4].is_end = true;
+    Skeleton s = {6, 15, j, false, true};
+    for (int k = 0; k < 4; k++) { /* also half a turn, where small turns would not know which way */
+        Mat3 hips = mat_mul(about(CHANNEL_RY, 60 * k), about(CHANNEL_RX, 25));
+        Mat3 thigh = mat_mul(hips, about(CHANNEL_RX, -80));
+        for (int i = 1; i < 6; i++) {
+            Vec3 to = mat_apply(i == 3 ? thigh : hips, offset[i]);
+            if (i != 4) row[first[i]] = to.x, row[first[i] + 1] = to.y, row[first[i] + 2] = to.z;
+        }
+        skeleton_pose(&s, row, w);
+        NEAR(worst(w[0].r, hips), 0, 1e-9, "hips turn as spine and legs say");
+        NEAR(worst(w[2].r, thigh), 0, 1e-9, "a thigh by the smallest turn from them");
+        NEAR(vec_dist(w[4].t, rigid_apply((Rigid){thigh, w[3].t}, offset[4])), 0, 1e-9, "an end goes on as the joint");
+    }
+}
+
 int main(void) {
     test_orders();
     test_zxy();
     test_positions();
     test_chain();
     test_axis();
+    test_points();
     return tap_done();
 }

@@ -85,10 +85,13 @@ void source_sample(Opening *o, int frame, const double *row);
 MUST_CHECK bool source_rate(Opening *o, double frame_time, Error *e);
 
 /* position.c: do position channels replace the OFFSET, or add to it? Looks at frames that
-   are spread evenly over the motion. */
+   are spread evenly over the motion. And are they all that moves the joints below a root?
+   Then those without OFFSET get one from the first frame. */
 typedef struct Positions Positions;
 MUST_CHECK bool positions_start(const Skeleton *s, Arena *arena, Positions **out, Error *e);
 void positions_add(Positions *p, int frame, const double *row);
 bool positions_are_deltas(Positions *p);
+bool positions_are_all(const Positions *p);
+void positions_fill_offsets(const Positions *p, Skeleton *s);
 
 #endif

@@ -89,8 +89,8 @@ static void print_motion(const Motion *m) {
     printf("%s: %s motion\n", m->path, m->format);
     printf("  joints      %d and %d end sites, %d channels\n", s->njoints - ends, ends, s->nchannels);
     printf("  names       %s\n", naming(s));
-    printf("  positions   channels of %d joint%s %s the OFFSET\n", moved, moved == 1 ? "" : "s",
-           s->position_adds ? "add to" : "replace");
+    printf("  positions   channels of %d joint%s %s the OFFSET%s\n", moved, moved == 1 ? "" : "s",
+           s->position_adds ? "add to" : "replace", s->points ? ", and tell how joints turn" : "");
     printf("  frames      %d\n", m->nframes);
     printf("  rate        %.6g a second%s, %.6g s in all\n", 1 / m->frame_time, m->has_frame_time ? "" : " (assumed)",
            (m->nframes - 1) * m->frame_time);

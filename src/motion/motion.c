@@ -170,6 +170,8 @@ static bool finish(Opening *o, Error *e) {
     if (m->nframes < 1) return error_set(e, ERR_INPUT, "no complete frame in '%s'", o->in.name);
     PositionRule rule = o->options->position;
     m->skeleton.position_adds = rule == POSITION_ADD || (rule == POSITION_GUESS && positions_are_deltas(o->positions));
+    m->skeleton.points = positions_are_all(o->positions);
+    if (m->skeleton.points && !m->skeleton.position_adds) positions_fill_offsets(o->positions, &m->skeleton);
     o->source->skeleton = m->skeleton;
     return stream_sound(&o->in, e) && file_state(o->source, e);
 }

@@ -1,8 +1,13 @@
-/* Do position channels replace the OFFSET or add to it? Both occur, and no file says which. If they replace it, a
-   joint's values lie round its OFFSET; if they add, round zero. Each position channel of a joint with an OFFSET is a
-   witness, the more trusted the less its values vary: while somebody walks away along x and z, the height of the
-   hips still tells. Nearly all files mean to replace, so adding must fit twice as well: the hips of somebody who
-   sits are below the OFFSET's height in either case. */
+/* What position channels mean.
+
+   Do they replace the OFFSET or add to it? Both occur, and no file says which. If they replace it, a joint's values lie
+   round its OFFSET; if they add, round zero. Each position channel of a joint with an OFFSET is a witness, the more
+   trusted the less its values vary: while somebody walks away along x and z, the height of the hips still tells. Nearly
+   all files mean to replace, so adding must fit twice as well: the hips of somebody who sits are below the OFFSET's
+   height in either case.
+
+   Do they tell the pose alone? In files of bare points, as pose estimators write them, no joint but a root turns in any
+   frame. Where such files leave OFFSETs zero, the first frame has to stand for them. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,8 +23,11 @@ typedef struct {
 } Witness;
 
 struct Positions {
+    const Skeleton *skeleton;
     Witness *witness;
     int nwitnesses, nsamples, stride;
+    double *first; /* the first row */
+    bool turns;    /* seen: a joint that is no root and turns */
 };
 
 static double coordinate(Vec3 v, ChannelKind kind) { return kind == CHANNEL_TX ? v.x : kind == CHANNEL_TY ? v.y : v.z; }
@@ -27,6 +35,8 @@ static double coordinate(Vec3 v, ChannelKind kind) { return kind == CHANNEL_TX ?
 bool positions_start(const Skeleton *s, Arena *arena, Positions **out, Error *e) {
     Positions *p = *out = ARENA_NEW(arena, Positions, 1, e);
     if (!p || !(p->witness = ARENA_NEW(arena, Witness, WITNESSES_MAX, e))) return false;
+    if (!(p->first = ARENA_NEW(arena, double, s->nchannels, e))) return false;
+    p->skeleton = s;
     p->stride = 1;
     for (int i = 0; i < s->njoints; i++) {
         const Joint *j = &s->joint[i];
@@ -42,9 +52,20 @@ bool positions_start(const Skeleton *s, Arena *arena, Positions **out, Error *e)
     return true;
 }
 
+static bool turns(const Skeleton *s, const double *row) {
+    for (int i = 0; i < s->njoints; i++) {
+        const Joint *j = &s->joint[i];
+        for (int k = 0; k < j->nchannels; k++)
+            if (j->parent >= 0 && j->channel[k] >= CHANNEL_RX && row[j->first_channel + k] != 0) return true;
+    }
+    return false;
+}
+
 /* When there is no room for more samples, every second one is dropped, and from then on every second frame is passed
    over: the samples stay spread evenly, whatever the number of frames. */
 void positions_add(Positions *p, int frame, const double *row) {
+    if (frame == 0) memcpy(p->first, row, (size_t)p->skeleton->nchannels * sizeof *row);
+    p->turns = p->turns || turns(p->skeleton, row);
     if (frame % p->stride != 0) return;
     if (p->nsamples == SAMPLES_MAX) {
         for (int i = 0; i < p->nwitnesses; i++)
@@ -75,4 +96,32 @@ bool positions_are_deltas(Positions *p) {
         add += fmin(fabs(median) / spread, FAR);
     }
     return BETTER * add < replace;
+}
+
+static int positions_of(const Joint *j) {
+    int n = 0;
+    for (int k = 0; k < j->nchannels; k++) n += j->channel[k] <= CHANNEL_TZ;
+    return n;
+}
+
+bool positions_are_all(const Positions *p) {
+    const Skeleton *s = p->skeleton;
+    int moved = 0, others = 0;
+    for (int i = 0; i < s->njoints; i++) {
+        if (s->joint[i].parent < 0 || s->joint[i].is_end) continue;
+        if (positions_of(&s->joint[i]) == 3) moved++;
+        else others++;
+    }
+    return !p->turns && moved > others;
+}
+
+void positions_fill_offsets(const Positions *p, Skeleton *s) {
+    for (int i = 0; i < s->njoints; i++) {
+        Joint *j = &s->joint[i];
+        double v[3] = {0, 0, 0};
+        if (j->parent < 0 || vec_len(j->offset) > 0) continue;
+        for (int k = 0; k < j->nchannels; k++)
+            if (j->channel[k] <= CHANNEL_TZ) v[j->channel[k]] = p->first[j->first_channel + k];
+        j->offset = vec(v[0], v[1], v[2]);
+    }
 }
