@@ -259,6 +259,30 @@ static void pairs_are_counted(Scene *s, const char *name) {
        "of which %lld are looked at", stats.pairs_tested);
 }
 
+/* The hem before a thigh that is raised by a right angle, bound half to it and half to the pelvis, lies as far before
+   the one as before the other: along the line between them at root two times its distance. */
+static void folds_are_mitres(void) {
+    Scene s;
+    Fit fit;
+    Follower follower;
+    static Patch root[GARMENT_PANELS_MAX];
+    scene_open(&s, "tshirt");
+    s.garment->ring[0].binding[STATION_FRONT] = (Binding){2, {ROLE_PELVIS, ROLE_LEFT_THIGH}, {0.5, 0.5}};
+    need(&s, fit_garment(s.garment, &s.figure, &s.body, &s.arena, &fit, &s.error));
+    need(&s, follow_reserve(&follower, &fit, &s.figure, &s.body, &s.arena, &s.error));
+    Pose pose = figure_rest_pose();
+    Vec3 joint = s.figure.start[ROLE_LEFT_THIGH], line = vec_scale(vec(0, 1, 1), sqrt(0.5));
+    follow_pose(&follower, &pose, root);
+    Vec3 turned = mat_apply(mat_axis_angle(vec(-1, 0, 0), PI / 4), vec_sub(root[0].p[3][0], joint));
+    scene_leg(&s, &pose, true, 90, 0);
+    follow_pose(&follower, &pose, root);
+    Vec3 wanted = vec_mad(turned, line, (sqrt(2) - 1) * vec_dot(turned, line));
+    double off = vec_dist(wanted, vec_sub(root[0].p[3][0], joint));
+    OK(vec_dot(turned, line) > 0.1 && off < 1e-9, "in the fold of a hip cloth is where both sides meet (%g m off)",
+       off);
+    arena_free(&s.arena);
+}
+
 int main(void) {
     static const int openings[NSHIPPED] = {2, 2, 3, 4};
     for (int k = 0; k < NSHIPPED; k++) {
@@ -273,6 +297,7 @@ int main(void) {
         pairs_are_counted(&c.scene, SHIPPED[k]);
         arena_free(&c.scene.arena);
     }
+    folds_are_mitres();
     rule_is_kept("paper-skirt");
     rule_is_kept("trousers");
     return tap_done();
