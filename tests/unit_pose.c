@@ -40,6 +40,24 @@ static void look_at(const Rig *r, const Pose *pose, Poses *p) {
     }
 }
 
+/* In a squat shins lean by more than the sole of an unknown foot does. */
+static void test_unknown_feet(void) {
+    Rig r;
+    double shins = 0, soles = 0, aside = 0;
+    if (!OK(rig_open(&r, "motions/squat.bvh", NULL), "the squat opens")) return;
+    for (int k = ROLE_LEFT_FOOT; k <= ROLE_RIGHT_TOE; k++) r.figure.bound[k] = false;
+    for (int frame = 0; frame < r.motion.nframes; frame++) {
+        Mat3 shin = rig_pose(&r, frame).bone[ROLE_LEFT_SHIN].r, foot = rig_pose(&r, frame).bone[ROLE_LEFT_FOOT].r;
+        shins = fmax(shins, fabs(asin(mat_column(shin, 2).y)) / DEGREE);
+        soles = fmax(soles, fabs(asin(mat_column(foot, 2).y)) / DEGREE);
+        aside = fmax(aside, angle(mat_column(shin, 0), mat_column(foot, 0)));
+    }
+    OK(shins > 25 && fabs(shins - soles - 20) < 0.01, "unknown feet are level, but for what an ankle does not give: "
+       "%.1f of %.1f degrees", soles, shins);
+    OK(aside < 1e-4, "and not turned to the side");
+    rig_close(&r);
+}
+
 int main(void) {
     static const char *const files[] = {
         "motions/paper-walk.bvh", "motions/squat.bvh", "motions/turn.bvh", "tests/data/figure/lafan1.bvh",
@@ -61,5 +79,6 @@ int main(void) {
         OK(p.astray < 1e-4, "and point where these do (%.2g degrees off)", p.astray);
         rig_close(&r);
     }
+    test_unknown_feet();
     return tap_done();
 }

@@ -53,7 +53,7 @@ MUST_CHECK bool figure_build(const Motion *m, const Roles *roles, const FigureOp
 /* The pose for the joints' world transforms (file units) of one frame. Pelvis, chest, head and feet are rigid with
    their joints. The spine is half-way between pelvis and chest. A limb bone turns from its parent by the smallest
    rotation that points it to the next joint; a thigh also turns about its own axis, so that its left is the pelvis's
-   left and a bent knee bends backwards. */
+   left and a bent knee bends backwards. A foot without a joint is level, as far as ankles turn easily. */
 void figure_pose(const Figure *f, const Rigid *world, Pose *out);
 
 /* The pose in which every bone is where it stands in the canonical stance. */

@@ -162,13 +162,21 @@ static void twist_thigh(const Poser *p, Role thigh) {
     twist(f, thigh, axis, vec_scale(mat_column(bone->r, 2), -1), aside, smoothstep(STRAIGHT, BENT, bend), bone);
 }
 
+/* A foot of which the file tells nothing: at a right angle to the shin, but turned towards the level as far as an ankle
+   is turned without a thought. */
+static Mat3 level_foot(Mat3 shin) {
+    static const double EASY = 20 * PI / 180;
+    double rise = asin(clamp(mat_column(shin, 2).y, -1, 1));
+    return mat_mul(mat_axis_angle(mat_column(shin, 0), clamp(rise, -EASY, EASY)), shin);
+}
+
 static void pose_leg(const Poser *p, Role thigh) {
     const Figure *f = p->f;
     Role shin = thigh + 1, foot = thigh + 2, toe = thigh + 3;
     pose_limb_bone(p, thigh, ROLE_PELVIS, ROLE_PELVIS);
     twist_thigh(p, thigh);
     pose_limb_bone(p, shin, thigh, thigh);
-    Mat3 r = f->bound[foot] ? bound_turn(p, foot) : p->pose->bone[shin].r;
+    Mat3 r = f->bound[foot] ? bound_turn(p, foot) : level_foot(p->pose->bone[shin].r);
     p->pose->bone[foot] = placed(r, f->start[foot], start_of(p, foot, shin));
     if (f->bound[toe]) r = bound_turn(p, toe);
     p->pose->bone[toe] = placed(r, f->start[toe], rigid_apply(p->pose->bone[foot], f->end[foot]));
