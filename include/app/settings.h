@@ -140,6 +140,9 @@ const char *settings_nearest(const char *name, unsigned commands);
    names the option, says what was expected and quotes what was found. */
 MUST_CHECK bool settings_put(Settings *s, const Option *option, const char *text, Arena *arena, Error *e);
 
+/* The one form of all complaints about values: `what` was expected as the value of --`option`. Returns false. */
+bool settings_expected(const char *option, const char *what, const char *text, Error *e);
+
 /* The value as a text that settings_put takes; of a list its item `i`. False where it is the default
    (or the list has no such item): then nothing is written. */
 bool settings_show(const Settings *s, const Option *option, int i, FILE *out);

@@ -25,6 +25,14 @@ void *arena_array(Arena *a, size_t count, size_t size, Error *e);
 /* Typed form: Vec3 *p = ARENA_NEW(a, Vec3, n, e); */
 #define ARENA_NEW(arena, Type, count, e) ((Type *)arena_array((arena), (size_t)(count), sizeof(Type), (e)))
 
+/* Room for one item more than `count`: `item` itself, or a copy with twice the room once `count` has reached *capacity.
+   Start with NULL, 0 and 0. NULL with an error as above. */
+void *arena_grow(Arena *a, void *item, size_t size, int count, int *capacity, Error *e);
+
+/* Typed form: p = ARENA_GROW(a, Vec3, p, n, &capacity, e); */
+#define ARENA_GROW(arena, Type, item, count, capacity, e) \
+    ((Type *)arena_grow((arena), (item), sizeof(Type), (count), (capacity), (e)))
+
 /* Copies n bytes of `text` and a final NUL. NULL with an error as above. */
 char *arena_text(Arena *a, const char *text, size_t n, Error *e);
 

@@ -7,6 +7,9 @@
 
 typedef struct { char text[240]; } Why;
 
+/* Writes what is wrong, and returns false. */
+bool refuse(Why *why, const char *fmt, ...) PRINTF_LIKE(2, 3);
+
 /* Can the name be (the beginning of) a file name on any system, a cell of a table, and no
    statement of the format? */
 MUST_CHECK bool check_name(const char *name, Why *why);

@@ -13,6 +13,9 @@ typedef struct { Mat3 r; Vec3 t; } Rigid;      /* p' = r p + t */
 typedef struct { double w, x, y, z; } Quat;    /* unit quaternion, w real */
 typedef struct { Vec3 low, high; } Box;
 
+/* As fmax, which compilers do not inline; b where one of them is no number. */
+static inline double larger(double a, double b) { return a > b ? a : b; }
+
 static inline Vec3 vec(double x, double y, double z) { return (Vec3){x, y, z}; }
 static inline Vec3 vec_add(Vec3 a, Vec3 b) { return vec(a.x + b.x, a.y + b.y, a.z + b.z); }
 static inline Vec3 vec_sub(Vec3 a, Vec3 b) { return vec(a.x - b.x, a.y - b.y, a.z - b.z); }
@@ -32,6 +35,8 @@ static inline Vec3 vec_unit_or(Vec3 a, Vec3 fallback) {
     double n = vec_len(a);
     return n > 1e-300 ? vec_scale(a, 1.0 / n) : fallback;
 }
+/* The largest coordinate, without its sign. */
+static inline double vec_extent(Vec3 a) { return larger(fabs(a.x), larger(fabs(a.y), fabs(a.z))); }
 static inline bool vec_finite(Vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
 
 static inline Mat3 mat_identity(void) { return (Mat3){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; }
@@ -127,6 +132,7 @@ static inline void box_add(Box *b, Vec3 p) {
     b->high = vec(p.x > high.x ? p.x : high.x, p.y > high.y ? p.y : high.y, p.z > high.z ? p.z : high.z);
 }
 
+static inline double square(double x) { return x * x; }
 static inline double clamp(double x, double low, double high) { return x < low ? low : x > high ? high : x; }
 /* 0 below a, 1 above b, 3t^2 - 2t^3 between. */
 static inline double smoothstep(double a, double b, double x) {

@@ -6,10 +6,6 @@
 /* Frames that are drawn where none are asked for. */
 enum { SPREAD = 6 };
 
-static bool expected(const char *option, const char *what, const char *found, Error *e) {
-    return error_set(e, ERR_USAGE, "option '--%s': expected %s, found '%s'", option, what, found);
-}
-
 static bool read_degrees(const char *from, const char *end, double low, double high, double *out) {
     return end > from && text_number(from, end, out) == end && *out >= low && *out <= high;
 }
@@ -28,7 +24,7 @@ static bool read_view(const char *text, Drawing *d, Error *e) {
     if (read_degrees(text, slash ? slash : end, -360, 360, &d->azimuth) &&
         (!slash || read_degrees(slash + 1, end, -89, 89, &d->elevation)))
         return true;
-    return expected("view", "front, back, left, right, iso or AZ/EL in degrees, EL from -89 to 89", text, e);
+    return settings_expected("view", "front, back, left, right, iso or AZ/EL in degrees, EL from -89 to 89", text, e);
 }
 
 /* Words of --cell, and what each does to one; -1 leaves it as it is. */
@@ -62,8 +58,8 @@ static bool read_cell(const char *text, DrawingCell *c, Error *e) {
         }
         at += n + 1;
     }
-    return expected("cell", "some of push, paper, global, adaptive, uniform, none, patches, points, cells and =TITLE",
-                    text, e);
+    return settings_expected(
+        "cell", "some of push, paper, global, adaptive, uniform, none, patches, points, cells and =TITLE", text, e);
 }
 
 static bool read_cells(const Settings *s, Drawing *d, Error *e) {

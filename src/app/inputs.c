@@ -32,14 +32,9 @@ typedef struct {
 
 static bool add(Search *s, const char *path, const char *below, bool is_empty) {
     if (s->count == INPUTS_MAX) return error_set(s->e, ERR_USAGE, "more than %d motions", INPUTS_MAX);
-    if (s->count == s->capacity) {
-        int capacity = s->capacity ? 2 * s->capacity : 64;
-        Found *more = ARENA_NEW(s->arena, Found, capacity, s->e);
-        if (!more) return false;
-        if (s->count) memcpy(more, s->found, (size_t)s->count * sizeof *more);
-        s->found = more;
-        s->capacity = capacity;
-    }
+    Found *found = ARENA_GROW(s->arena, Found, s->found, s->count, &s->capacity, s->e);
+    if (!found) return false;
+    s->found = found;
     s->found[s->count++] = (Found){{path, NULL, is_empty}, below, SHORT};
     return true;
 }

@@ -30,8 +30,6 @@ Step jumps_judge(const JumpRule *rule, int frame, const Pose *behind, const Pose
     return is_fast ? STEP_FLIP : STEP_PLAIN;
 }
 
-static double larger(double a, double b) { return a > b ? a : b; }
-
 /* The last one, if `next` only goes on with it. */
 static Jump *continued(Jumps *j, const Jump *next) {
     Jump *last = j->count && j->count <= JUMPS_KEPT ? &j->jump[j->count - 1] : NULL;

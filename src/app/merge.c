@@ -78,14 +78,9 @@ static bool read_summary(Merge *m, const char *path, Summary *s) {
 }
 
 static bool add(Merge *m, const char *folder, const char *name) {
-    if (m->count == m->capacity) {
-        int capacity = m->capacity ? 2 * m->capacity : 16;
-        Summary *more = ARENA_NEW(m->arena, Summary, capacity, m->e);
-        if (!more) return false;
-        if (m->count) memcpy(more, m->item, (size_t)m->count * sizeof *more);
-        m->item = more;
-        m->capacity = capacity;
-    }
+    Summary *item = ARENA_GROW(m->arena, Summary, m->item, m->count, &m->capacity, m->e);
+    if (!item) return false;
+    m->item = item;
     size_t n = strlen(folder) + strlen(name) + 2;
     char *path = ARENA_NEW(m->arena, char, n, m->e);
     if (!path) return false;

@@ -14,14 +14,9 @@ enum { DEPTH_MAX = 64, STATS_LIMIT = 1 << 28 };
 typedef struct { const Settings *settings; Arena *arena; Reel *reel; int count, capacity; Error *e; } Finder;
 
 static Reel *add_reel(Finder *f, const char *motion) {
-    if (f->count == f->capacity) {
-        int capacity = f->capacity ? 2 * f->capacity : 8;
-        Reel *more = ARENA_NEW(f->arena, Reel, capacity, f->e);
-        if (!more) return NULL;
-        if (f->count) memcpy(more, f->reel, (size_t)f->count * sizeof *more);
-        f->reel = more;
-        f->capacity = capacity;
-    }
+    Reel *reel = ARENA_GROW(f->arena, Reel, f->reel, f->count, &f->capacity, f->e);
+    if (!reel) return NULL;
+    f->reel = reel;
     f->reel[f->count] = (Reel){.motion = motion};
     return &f->reel[f->count++];
 }

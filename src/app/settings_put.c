@@ -30,9 +30,8 @@ static bool is_number(const char *text, double *x) {
     return text_number(text, end, x) == end && *text;
 }
 
-/* The one form of all complaints about values. */
-static bool expected(const Option *option, const char *what, const char *text, Error *e) {
-    return error_set(e, ERR_USAGE, "option '--%s': expected %s, found '%s'", option->name, what, text);
+bool settings_expected(const char *option, const char *what, const char *text, Error *e) {
+    return error_set(e, ERR_USAGE, "option '--%s': expected %s, found '%s'", option, what, text);
 }
 
 static bool put_int(int *field, const Option *option, const char *text, Error *e) {
@@ -45,16 +44,22 @@ static bool put_int(int *field, const Option *option, const char *text, Error *e
     }
     if (step > 1) snprintf(what, sizeof what, "a multiple of %d from %.0f to %.0f", step, option->low, option->high);
     else snprintf(what, sizeof what, "a whole number from %.0f to %.0f", option->low, option->high);
-    return expected(option, what, text, e);
+    return settings_expected(option->name, what, text, e);
+}
+
+/* `what`: the range in words. */
+static bool put_in_range(double *field, const Option *option, const char *what, const char *text, Error *e) {
+    double x = 0;
+    if (!is_number(text, &x) || !(x >= option->low && x <= option->high))
+        return settings_expected(option->name, what, text, e);
+    *field = x;
+    return true;
 }
 
 static bool put_real(double *field, const Option *option, const char *text, Error *e) {
-    double x = 0;
     char what[80];
     snprintf(what, sizeof what, "a number from %.10g to %.10g", option->low, option->high);
-    if (!is_number(text, &x) || !(x >= option->low && x <= option->high)) return expected(option, what, text, e);
-    *field = x;
-    return true;
+    return put_in_range(field, option, what, text, e);
 }
 
 static bool put_unit(double *field, const Option *option, const char *text, Error *e) {
@@ -63,12 +68,9 @@ static bool put_unit(double *field, const Option *option, const char *text, Erro
         *field = units[i].metres;
         return true;
     }
-    double x = 0;
     char what[80];
     snprintf(what, sizeof what, "m, dm, cm, mm, in, ft or a number of metres from %g to %g", option->low, option->high);
-    if (!is_number(text, &x) || !(x >= option->low && x <= option->high)) return expected(option, what, text, e);
-    *field = x;
-    return true;
+    return put_in_range(field, option, what, text, e);
 }
 
 static const Choice *find_choice(const Option *option, const char *text, size_t length) {
@@ -123,7 +125,7 @@ static bool put_span(FrameSpan *field, const Option *option, const char *text, E
             return true;
         }
     }
-    return expected(option, "A:B:STEP with frames from 1 and A <= B", text, e);
+    return settings_expected(option->name, "A:B:STEP with frames from 1 and A <= B", text, e);
 }
 
 /* The walk checks how steep a stair may be; here every part is a number and counts at least 1. */
@@ -140,8 +142,7 @@ static bool put_stairs(Gait *field, const Option *option, const char *text, Erro
     bool good = n == 2 && !*at && part[0] != 0 && fabs(part[0]) <= 1e6 && part[1] > 0 && part[1] <= 1e6 &&
                 part[2] >= 1 && part[2] <= 1e6;
     if (!good || part[2] != (int)part[2])
-        return error_set(e, ERR_USAGE, "option '--%s': expected RISE:RUN:COUNT, as in 0.17:0.29:8, found '%s'",
-                         option->name, text);
+        return settings_expected(option->name, "RISE:RUN:COUNT, as in 0.17:0.29:8", text, e);
     field->stair_rise = part[0];
     field->stair_run = part[1];
     field->stair_count = (int)part[2];
@@ -155,7 +156,7 @@ static bool put_shard(Shard *field, const Option *option, const char *text, Erro
     double k = 0, n = 0;
     bool good = slash && text_number(text, slash, &k) == slash && text_number(slash + 1, end, &n) == end;
     if (!good || !(k >= 1 && k <= n && n <= MOST) || k != (int)k || n != (int)n)
-        return expected(option, "K/N with 1 <= K <= N", text, e);
+        return settings_expected(option->name, "K/N with 1 <= K <= N", text, e);
     *field = (Shard){(int)k, (int)n};
     return true;
 }

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ALIGN = 64, FIRST_BLOCK = 64 << 10, LARGE_BLOCK = 2 << 20 };
+enum { FIRST_CAPACITY = 64, ALIGN = 64, FIRST_BLOCK = 64 << 10, LARGE_BLOCK = 2 << 20 };
 
 struct ArenaBlock {
     ArenaBlock *next;
@@ -63,6 +63,16 @@ void *arena_array(Arena *a, size_t count, size_t size, Error *e) {
                   a->limit >> 20, a->held, bytes);
     else if (!p) error_set(e, ERR_INTERNAL, "out of memory (%zu bytes held, %zu more asked)", a->held, bytes);
     return p;
+}
+
+void *arena_grow(Arena *a, void *item, size_t size, int count, int *capacity, Error *e) {
+    if (count < *capacity) return item;
+    int wider = *capacity ? 2 * *capacity : FIRST_CAPACITY;
+    void *copy = arena_array(a, (size_t)wider, size, e);
+    if (!copy) return NULL;
+    if (count) memcpy(copy, item, (size_t)count * size);
+    *capacity = wider;
+    return copy;
 }
 
 char *arena_text(Arena *a, const char *text, size_t n, Error *e) {

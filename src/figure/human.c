@@ -31,8 +31,6 @@ static const double TORSO_NONE = 0.05; /* shorter, and there is none */
    cosine) goes on all fours. */
 static const double FORELEG = 0.8, LONG_BACK = 0.8, ACROSS = 0.35;
 
-static double square(double x) { return x * x; }
-
 /* Does the joint where the arms meet lead on to something that is no arm? */
 static bool has_head(const Tree *t, const LimbPair *arms) {
     for (int c = t->child[arms->hub]; c >= 0; c = t->sibling[c])

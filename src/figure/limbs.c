@@ -202,8 +202,6 @@ static Limb best_limb(const Tree *t, LimbKind kind, int first) {
     return best;
 }
 
-static double square(double x) { return x * x; }
-
 static LimbPair make_pair(const Tree *t, LimbKind kind, int hub, const Limb *a, const Limb *b) {
     LimbPair pair = {kind, hub, {*a, *b}, a->score + b->score};
     pair.score -= MIRROR * (square(log(a->length[0] / b->length[0])) + square(log(a->length[1] / b->length[1])));

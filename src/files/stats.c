@@ -100,8 +100,6 @@ static const struct {
 
 bool stats_has_residual(const FrameStats *s) { return s->residual_edges > 0 || s->residual_cloth > 0 || s->inside > 0; }
 
-static double larger(double a, double b) { return a > b ? a : b; }
-
 void summary_add(SummaryRow *sum, const StatsRow *row) {
     const FrameStats *s = &row->stats;
     sum->frames++;

@@ -14,8 +14,7 @@ static const double SAME_WEIGHT = 1e-9; /* weights are normalised after reading 
 static const double FOLD = 5;           /* degrees across a seam that is no crease */
 static const double NO_AREA = 1e-8;     /* square metres: a hundredth of a square millimetre */
 
-static bool no(Why *why, const char *fmt, ...) PRINTF_LIKE(2, 3);
-static bool no(Why *why, const char *fmt, ...) {
+bool refuse(Why *why, const char *fmt, ...) {
     va_list args;
     va_start(args, fmt);
     vsnprintf(why->text, sizeof why->text, fmt, args);
@@ -27,12 +26,12 @@ bool check_name(const char *name, Why *why) {
     static const char *const taken[] = {"body", "garment", "follow", "fit",   "detail", "ring", "bind",    "move",
                                         "join", "panel",   "row",    "patch", "seam",   "pin",  "collide", "mirror"};
     for (size_t i = 0; i < sizeof taken / sizeof *taken; i++)
-        if (strcmp(name, taken[i]) == 0) return no(why, "'%s' is a reserved word and cannot be a name", name);
-    if (name[0] == '.' || name[0] == '-') return no(why, "name '%s' begins with '%c'", name, name[0]);
+        if (strcmp(name, taken[i]) == 0) return refuse(why, "'%s' is a reserved word and cannot be a name", name);
+    if (name[0] == '.' || name[0] == '-') return refuse(why, "name '%s' begins with '%c'", name, name[0]);
     for (const char *c = name; *c; c++) {
-        if ((unsigned char)*c < 32 || *c == 127) return no(why, "control character in the name '%s'", name);
+        if ((unsigned char)*c < 32 || *c == 127) return refuse(why, "control character in the name '%s'", name);
         if (strchr("/\\:*?\"<>|,", *c))
-            return no(why, "'%c' in the name '%s': not every file name can have it", *c, name);
+            return refuse(why, "'%c' in the name '%s': not every file name can have it", *c, name);
     }
     return true;
 }
@@ -43,12 +42,13 @@ bool check_row(const Garment *g, const Panel *panel, const Row *row, Why *why) {
     const char *from = station_name(row->from), *to = station_name(row->to);
     for (int i = 0; i < panel->nrows; i++)
         if (panel->row[i].ring == row->ring)
-            return no(why, "panel '%s' has a row on the ring '%s' already", panel->name, g->ring[row->ring].name);
+            return refuse(why, "panel '%s' has a row on the ring '%s' already", panel->name, g->ring[row->ring].name);
     if (row->via == STATION_NONE)
-        return neighbours(row->from, row->to) || no(why, "'%s' and '%s' are not neighbours: no quarter arc", from, to);
+        return neighbours(row->from, row->to) ||
+               refuse(why, "'%s' and '%s' are not neighbours: no quarter arc", from, to);
     if (row->from != row->to && neighbours(row->from, row->via) && neighbours(row->via, row->to)) return true;
-    return no(why, "'%s %s %s' is no half arc: it goes from one station over its neighbour to the opposite one", from,
-              station_name(row->via), to);
+    return refuse(why, "'%s %s %s' is no half arc: it goes from one station over its neighbour to the opposite one",
+                  from, station_name(row->via), to);
 }
 
 /* Area of the surface, roughly: the mean of |du x dw| over a grid. Zero for a patch that is
@@ -63,7 +63,7 @@ bool check_area(const RawPatch *patch, Why *why) {
         bezier_point(&surface, (k / GRID + 0.5) / GRID, (k % GRID + 0.5) / GRID, &du, &dw);
         area += vec_len(vec_cross(du, dw)) / (GRID * GRID);
     }
-    return area > NO_AREA || no(why, "patch '%s' is degenerate: its 16 points span no area", patch->name);
+    return area > NO_AREA || refuse(why, "patch '%s' is degenerate: its 16 points span no area", patch->name);
 }
 
 /* One end of a seam, step by step: a point of a raw patch, a station of a panel's row for start
@@ -112,11 +112,11 @@ static int panels_part(const StationList *a, const StationList *b, bool backward
 static bool panels_meet(const Garment *g, const Seam *s, Why *why) {
     StationList a = side_of_panel(g, &g->panel[s->piece_a], s->side_a);
     StationList b = side_of_panel(g, &g->panel[s->piece_b], s->side_b);
-    if (a.n != b.n) return no(why, "the seam does not meet: the sides have %d and %d stations", a.n, b.n);
+    if (a.n != b.n) return refuse(why, "the seam does not meet: the sides have %d and %d stations", a.n, b.n);
     int i = panels_part(&a, &b, false);
     if (i < 0 || panels_part(&a, &b, true) < 0) return true;
-    return no(why, "the seam does not meet: '%s.%s' against '%s.%s'", g->ring[a.ring[i]].name,
-              station_name(a.station[i]), g->ring[b.ring[i]].name, station_name(b.station[i]));
+    return refuse(why, "the seam does not meet: '%s.%s' against '%s.%s'", g->ring[a.ring[i]].name,
+                  station_name(a.station[i]), g->ring[b.ring[i]].name, station_name(b.station[i]));
 }
 
 static double weight_of(const Binding *binding, Role bone) {
@@ -175,14 +175,15 @@ static bool patches_meet(const Garment *g, const Seam *s, Why *why) {
         }
     }
     int way = apart[1] < apart[0];
-    if (apart[way] > MEET) return no(why, "the seam does not meet: its sides are up to %.3g m apart", apart[way]);
-    if (!same_bones[way]) return no(why, "the seam does not meet: its sides follow different bones");
+    if (apart[way] > MEET) return refuse(why, "the seam does not meet: its sides are up to %.3g m apart", apart[way]);
+    if (!same_bones[way]) return refuse(why, "the seam does not meet: its sides follow different bones");
     double fold = s->crease ? 0 : seam_fold(a, s->side_a, b, s->side_b, way);
-    return fold <= FOLD || no(why, "the seam is folded by up to %.3g degrees: where that is meant, add 'crease'", fold);
+    return fold <= FOLD ||
+           refuse(why, "the seam is folded by up to %.3g degrees: where that is meant, add 'crease'", fold);
 }
 
 bool check_seam(const Garment *g, const Seam *s, Why *why) {
-    if (s->piece_a == s->piece_b && s->side_a == s->side_b) return no(why, "a side cannot be sewn to itself");
+    if (s->piece_a == s->piece_b && s->side_a == s->side_b) return refuse(why, "a side cannot be sewn to itself");
     for (int i = 0; i < g->nseams; i++) {
         const Seam *t = &g->seam[i];
         const struct {
@@ -192,24 +193,24 @@ bool check_seam(const Garment *g, const Seam *s, Why *why) {
         for (int k = 0; k < 2; k++)
             if ((old[k].piece == s->piece_a && old[k].side == s->side_a) ||
                 (old[k].piece == s->piece_b && old[k].side == s->side_b))
-                return no(why, "'%s.%s' has a seam already", garment_piece_name(g, old[k].piece),
-                          side_name(old[k].side));
+                return refuse(why, "'%s.%s' has a seam already", garment_piece_name(g, old[k].piece),
+                              side_name(old[k].side));
     }
     bool raw_a = s->piece_a >= g->npanels, raw_b = s->piece_b >= g->npanels;
     if (raw_a != raw_b)
-        return no(why, "a panel cannot be sewn to a raw patch: only the body decides where the panel lies");
+        return refuse(why, "a panel cannot be sewn to a raw patch: only the body decides where the panel lies");
     return raw_a ? patches_meet(g, s, why) : panels_meet(g, s, why);
 }
 
 bool check_join(const Garment *g, const Join *join, Why *why) {
-    if (join->ring_a == join->ring_b) return no(why, "two stations of one ring cannot be joined");
+    if (join->ring_a == join->ring_b) return refuse(why, "two stations of one ring cannot be joined");
     for (int i = 0; i < 2 * g->njoins; i++) {
         const Join *old = &g->join[i / 2];
         int ring = i % 2 ? old->ring_b : old->ring_a;
         Station station = i % 2 ? old->station_b : old->station_a;
         if ((ring == join->ring_a && station == join->station_a) ||
             (ring == join->ring_b && station == join->station_b))
-            return no(why, "'%s.%s' is joined already", g->ring[ring].name, station_name(station));
+            return refuse(why, "'%s.%s' is joined already", g->ring[ring].name, station_name(station));
     }
     return true;
 }
@@ -226,15 +227,15 @@ bool check_collide(const Garment *g, const Collide *c, Why *why) {
         int from = find_row(&g->panel[i], c->from_ring), to = find_row(&g->panel[i], c->to_ring);
         if (from >= 0 && to >= 0 && from != to) return true;
     }
-    return no(why, "no panel above has patches from the ring '%s' to '%s'", g->ring[c->from_ring].name,
-              g->ring[c->to_ring].name);
+    return refuse(why, "no panel above has patches from the ring '%s' to '%s'", g->ring[c->from_ring].name,
+                  g->ring[c->to_ring].name);
 }
 
 bool check_pin(const Garment *g, const Pin *pin, Why *why) {
     if (pin->ring < 0) return true;
     for (int i = 0; i < g->npanels; i++)
         if (find_row(&g->panel[i], pin->ring) >= 0) return true;
-    return no(why, "no panel above uses the ring '%s'", g->ring[pin->ring].name);
+    return refuse(why, "no panel above uses the ring '%s'", g->ring[pin->ring].name);
 }
 
 static bool torso_or_leg(Role part) {
@@ -252,16 +253,16 @@ bool check_envelope(const Garment *g, const Panel *panel, Why *why) {
     bool all = panel->nrows == g->nrings;
     for (int i = 0; i < panel->nrows; i++) all = all && panel->row[i].ring == i;
     if (!all)
-        return no(why, "panel '%s' does not have all rings in their order, '%s' to '%s': they are one envelope",
-                  panel->name, g->ring[0].name, g->ring[g->nrings - 1].name);
+        return refuse(why, "panel '%s' does not have all rings in their order, '%s' to '%s': they are one envelope",
+                      panel->name, g->ring[0].name, g->ring[g->nrings - 1].name);
     for (int i = 0; i < panel->nrows; i++) {
         const Ring *ring = &g->ring[panel->row[i].ring];
         if (!torso_or_leg(ring->part))
-            return no(why, "the envelope holds torso and legs, not the ring '%s' on '%s'", ring->name,
-                      role_name(ring->part));
+            return refuse(why, "the envelope holds torso and legs, not the ring '%s' on '%s'", ring->name,
+                          role_name(ring->part));
         if (i > 0 && height_of(&figure, ring) >= height_of(&figure, &g->ring[panel->row[i - 1].ring]))
-            return no(why, "ring '%s' must lie below '%s' in an envelope", ring->name,
-                      g->ring[panel->row[i - 1].ring].name);
+            return refuse(why, "ring '%s' must lie below '%s' in an envelope", ring->name,
+                          g->ring[panel->row[i - 1].ring].name);
     }
     return true;
 }

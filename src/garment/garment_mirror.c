@@ -4,7 +4,6 @@
    use) stays one thing. Also here: adding pieces, whose numbers depend on one another. */
 #include "garment/check.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -40,25 +39,16 @@ typedef struct {
     Why *why;
 } Mirror;
 
-static bool no(Mirror *m, const char *fmt, ...) PRINTF_LIKE(2, 3);
-static bool no(Mirror *m, const char *fmt, ...) {
-    va_list args;
-    va_start(args, fmt);
-    vsnprintf(m->why->text, sizeof m->why->text, fmt, args);
-    va_end(args);
-    return false;
-}
-
 static bool has_prefix(const Mirror *m, const char *name) { return strncmp(name, m->from, strlen(m->from)) == 0; }
 
 /* The mirrored name, checked to be new. */
 static bool other_name(Mirror *m, const char *name, char out[GARMENT_NAME_MAX]) {
     int n = snprintf(out, GARMENT_NAME_MAX, "%s%s", m->to, name + strlen(m->from));
     if (n >= GARMENT_NAME_MAX)
-        return no(m, "the mirrored name of '%s' is longer than %d bytes", name, GARMENT_NAME_MAX - 1);
+        return refuse(m->why, "the mirrored name of '%s' is longer than %d bytes", name, GARMENT_NAME_MAX - 1);
     if (garment_find_ring(m->g, out) >= 0 || garment_find_piece(m->g, out) >= 0)
-        return no(m, "the mirror image of '%s' has a name that is taken: '%s'", name, out);
-    if (strchr(out, '.')) return no(m, "'.' in the mirrored name '%s'", out); /* RING.STATION is split there */
+        return refuse(m->why, "the mirror image of '%s' has a name that is taken: '%s'", name, out);
+    if (strchr(out, '.')) return refuse(m->why, "'.' in the mirrored name '%s'", out); /* RING.STATION is split there */
     return check_name(out, m->why);
 }
 
@@ -95,7 +85,7 @@ static bool mirror_rings(Mirror *m) {
         Ring ring = g->ring[i];
         if (!has_prefix(m, ring.name)) continue;
         if (!other_name(m, g->ring[i].name, ring.name)) return false;
-        if (g->nrings == GARMENT_RINGS_MAX) return no(m, "more than %d rings", GARMENT_RINGS_MAX);
+        if (g->nrings == GARMENT_RINGS_MAX) return refuse(m->why, "more than %d rings", GARMENT_RINGS_MAX);
         ring.part = role_mirror(ring.part);
         ring.shift = other_vector(ring.shift);
         ring.tilt = 0 - ring.tilt;
@@ -120,7 +110,7 @@ static bool mirror_panels(Mirror *m) {
                          other_station(row->to)};
         }
         Panel *panel = garment_add_panel(m->g, image.name);
-        if (!panel) return no(m, "more than %d panels", GARMENT_PANELS_MAX);
+        if (!panel) return refuse(m->why, "more than %d panels", GARMENT_PANELS_MAX);
         *panel = image;
         if (m->g->follow == FOLLOW_ENVELOPE && !check_envelope(m->g, panel, m->why)) return false;
         m->copies++;
@@ -138,7 +128,7 @@ static bool mirror_patches(Mirror *m) {
             image.binding[k] = other_binding(image.binding[k]);
         }
         RawPatch *patch = garment_add_patch(m->g, image.name);
-        if (!patch) return no(m, "more than %d raw patches", GARMENT_PATCHES_MAX);
+        if (!patch) return refuse(m->why, "more than %d raw patches", GARMENT_PATCHES_MAX);
         *patch = image;
         m->copies++;
     }
@@ -152,7 +142,7 @@ static bool mirror_joins_and_seams(Mirror *m) {
         j.ring_a = other_ring(m, j.ring_a);
         j.ring_b = other_ring(m, j.ring_b);
         if (j.ring_a == g->join[i].ring_a && j.ring_b == g->join[i].ring_b) continue;
-        if (g->njoins == GARMENT_JOINS_MAX) return no(m, "more than %d joins", GARMENT_JOINS_MAX);
+        if (g->njoins == GARMENT_JOINS_MAX) return refuse(m->why, "more than %d joins", GARMENT_JOINS_MAX);
         j.station_a = other_station(j.station_a);
         j.station_b = other_station(j.station_b);
         if (!check_join(g, &j, m->why)) return false;
@@ -163,7 +153,7 @@ static bool mirror_joins_and_seams(Mirror *m) {
         s.piece_a = other_piece(m, s.piece_a);
         s.piece_b = other_piece(m, s.piece_b);
         if (s.piece_a == g->seam[i].piece_a && s.piece_b == g->seam[i].piece_b) continue;
-        if (g->nseams == GARMENT_SEAMS_MAX) return no(m, "more than %d seams", GARMENT_SEAMS_MAX);
+        if (g->nseams == GARMENT_SEAMS_MAX) return refuse(m->why, "more than %d seams", GARMENT_SEAMS_MAX);
         if (!check_seam(g, &s, m->why)) return false;
         g->seam[g->nseams++] = s;
     }
@@ -184,7 +174,7 @@ static bool mirror_collides_and_pins(Mirror *m) {
         Collide c = {other_ring(m, old->from_ring), other_ring(m, old->to_ring), other_piece(m, old->piece),
                      other_parts(old->parts)};
         if (c.from_ring == old->from_ring && c.to_ring == old->to_ring && c.piece == old->piece) continue;
-        if (g->ncollides == GARMENT_COLLIDES_MAX) return no(m, "more than %d collides", GARMENT_COLLIDES_MAX);
+        if (g->ncollides == GARMENT_COLLIDES_MAX) return refuse(m->why, "more than %d collides", GARMENT_COLLIDES_MAX);
         if (!check_collide(g, &c, m->why)) return false;
         g->collide[g->ncollides++] = c;
     }
@@ -192,7 +182,7 @@ static bool mirror_collides_and_pins(Mirror *m) {
         const Pin *old = &g->pin[i];
         Pin pin = {other_ring(m, old->ring), other_piece(m, old->piece), old->side};
         if (pin.ring == old->ring && pin.piece == old->piece) continue;
-        if (g->npins == GARMENT_PINS_MAX) return no(m, "more than %d pins", GARMENT_PINS_MAX);
+        if (g->npins == GARMENT_PINS_MAX) return refuse(m->why, "more than %d pins", GARMENT_PINS_MAX);
         if (!check_pin(g, &pin, m->why)) return false;
         g->pin[g->npins++] = pin;
     }
@@ -202,6 +192,6 @@ static bool mirror_collides_and_pins(Mirror *m) {
 bool garment_mirror(Garment *g, const char *from, const char *to, Why *why) {
     Mirror m = {g, from, to, g->nrings, g->npanels, g->npatches, 0, why};
     if (!mirror_rings(&m) || !mirror_panels(&m) || !mirror_patches(&m)) return false;
-    if (!m.copies) return no(&m, "nothing above has a name that begins with '%s'", from);
+    if (!m.copies) return refuse(why, "nothing above has a name that begins with '%s'", from);
     return mirror_joins_and_seams(&m) && mirror_collides_and_pins(&m);
 }

@@ -22,7 +22,7 @@ static void put_binding(FILE *out, const Binding *b) {
     fputc('\n', out);
 }
 
-static bool same_binding(const Binding *a, const Binding *b) {
+static bool is_equal(const Binding *a, const Binding *b) {
     for (int i = 0; i < a->n; i++)
         if (a->bone[i] != b->bone[i] || a->weight[i] != b->weight[i]) return false;
     return a->n == b->n;
@@ -30,7 +30,7 @@ static bool same_binding(const Binding *a, const Binding *b) {
 
 static void put_bindings(FILE *out, const Ring *r) {
     bool all = true;
-    for (int s = 1; s < STATION_COUNT; s++) all = all && same_binding(&r->binding[0], &r->binding[s]);
+    for (int s = 1; s < STATION_COUNT; s++) all = all && is_equal(&r->binding[0], &r->binding[s]);
     for (int s = 0; s < (all ? 1 : STATION_COUNT); s++) {
         if (!r->binding[s].n) continue;
         if (all) fprintf(out, "bind %s", r->name);

@@ -88,14 +88,11 @@ void crossing_build_triangles(CrossingSet *set, const Vec3 *position, const Tria
    (see predicate.c: nine roundings of six products); `slack` is more than that for any x in reach. */
 typedef struct { Vec3 origin, n; double slack; } Plane;
 
-static double greater(double a, double b) { return a > b ? a : b; }
-static double extent(Vec3 v) { return greater(fabs(v.x), greater(fabs(v.y), fabs(v.z))); }
-
 static Plane plane_of(const CrossingSet *triangles, int triangle, double reach) {
     const int *i = triangles->index + 3 * (size_t)triangle;
     Vec3 a = triangles->position[i[0]];
     Vec3 u = vec_sub(triangles->position[i[1]], a), v = vec_sub(triangles->position[i[2]], a);
-    double size = greater(extent(u), extent(v));
+    double size = larger(vec_extent(u), vec_extent(v));
     return (Plane){a, vec_cross(u, v), 0x1p-47 * size * size * 2 * reach + DBL_MIN};
 }
 

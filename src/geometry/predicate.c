@@ -182,16 +182,14 @@ static bool meet_exactly(Vec3 p, Vec3 q, Vec3 a, Vec3 b, Vec3 c) {
     return !ab && !bc && !ca && flat_overlap(p, q, a, b, c);
 }
 
-static double larger(double a, double b) { return a > b ? a : b; }
-static double extent(Vec3 v) { return larger(fabs(v.x), larger(fabs(v.y), fabs(v.z))); }
-
 /* The same five signs in doubles, with p as the origin: three cross products serve them all,
    and the volume under q is the volume under p less the three beside the line. With m the
    largest difference, one volume errs by at most 9 u x 6 m^3, the volume under q by less than
    four times that and its own roundings, 300 u m^3 in all. 2^-44 is 512 u. */
 bool predicate_segment_triangle(Vec3 p, Vec3 q, Vec3 a, Vec3 b, Vec3 c) {
     Vec3 d = vec_sub(q, p), u = vec_sub(a, p), v = vec_sub(b, p), w = vec_sub(c, p);
-    double m = larger(larger(extent(d), extent(u)), larger(extent(v), extent(w))), bound = 0x1p-44 * m * m * m;
+    double m = larger(larger(vec_extent(d), vec_extent(u)), larger(vec_extent(v), vec_extent(w)));
+    double bound = 0x1p-44 * m * m * m;
     Vec3 vw = vec_cross(v, w);
     double ab = vec_dot(d, vec_cross(u, v)), bc = vec_dot(d, vw), ca = vec_dot(d, vec_cross(w, u));
     double under_p = vec_dot(u, vw), under_q = under_p - (ab + bc + ca);

@@ -8,22 +8,22 @@
 /* --- plain C --- */
 
 /* fminf and fmaxf, but each a single machine instruction. */
-static inline float lesser(float a, float b) { return a < b ? a : b; }
-static inline float larger(float a, float b) { return a > b ? a : b; }
+static inline float lesserf(float a, float b) { return a < b ? a : b; }
+static inline float largerf(float a, float b) { return a > b ? a : b; }
 
 /* The least and the largest of sixteen, by halves: the compiler makes SIMD code of that. */
 static float least(const float v[TILE_LANES]) {
     float m[8];
-    for (int k = 0; k < 8; k++) m[k] = lesser(v[k], v[k + 8]);
-    for (int k = 0; k < 4; k++) m[k] = lesser(m[k], m[k + 4]);
-    return lesser(lesser(m[0], m[1]), lesser(m[2], m[3]));
+    for (int k = 0; k < 8; k++) m[k] = lesserf(v[k], v[k + 8]);
+    for (int k = 0; k < 4; k++) m[k] = lesserf(m[k], m[k + 4]);
+    return lesserf(lesserf(m[0], m[1]), lesserf(m[2], m[3]));
 }
 
 static float largest(const float v[TILE_LANES]) {
     float m[8];
-    for (int k = 0; k < 8; k++) m[k] = larger(v[k], v[k + 8]);
-    for (int k = 0; k < 4; k++) m[k] = larger(m[k], m[k + 4]);
-    return larger(larger(m[0], m[1]), larger(m[2], m[3]));
+    for (int k = 0; k < 8; k++) m[k] = largerf(v[k], v[k + 8]);
+    for (int k = 0; k < 4; k++) m[k] = largerf(m[k], m[k + 4]);
+    return largerf(largerf(m[0], m[1]), largerf(m[2], m[3]));
 }
 
 void tile_sum(const Tile *below, Tile *above, int lane) {
@@ -45,7 +45,7 @@ static void plain_boxes(Tile *out, const Vec3 *position, const int *index, int c
         for (int c = 1; c < corners; c++) {
             Vec3 q = position[index[c]];
             float v[3] = {(float)q.x, (float)q.y, (float)q.z};
-            for (int x = 0; x < 3; x++) low[x] = lesser(low[x], v[x]), high[x] = larger(high[x], v[x]);
+            for (int x = 0; x < 3; x++) low[x] = lesserf(low[x], v[x]), high[x] = largerf(high[x], v[x]);
         }
         for (int x = 0; x < 3; x++) out->low[x][k] = low[x], out->high[x][k] = high[x];
     }

@@ -9,7 +9,7 @@
 
 #include "motion/source.h"
 
-enum { FIRST_BONES = 64, NAME_MAX_BYTES = 1000, AXES = 3 };
+enum { NAME_MAX_BYTES = 1000, AXES = 3 };
 
 /* A bone as the file has it, and its place in the tree. */
 typedef struct {
@@ -85,14 +85,9 @@ static Part *add_part(Asf *a, Error *e) {
         stream_error(&a->in, e, "more than %d bones", a->o->max_joints);
         return NULL;
     }
-    if (a->nparts == a->capacity) {
-        int capacity = a->capacity ? 2 * a->capacity : FIRST_BONES;
-        Part *part = ARENA_NEW(a->o->scratch, Part, capacity, e);
-        if (!part) return NULL;
-        if (a->nparts) memcpy(part, a->part, (size_t)a->nparts * sizeof *part);
-        a->part = part;
-        a->capacity = capacity;
-    }
+    Part *part = ARENA_GROW(a->o->scratch, Part, a->part, a->nparts, &a->capacity, e);
+    if (!part) return NULL;
+    a->part = part;
     Part *p = &a->part[a->nparts++];
     *p = (Part){.order = "XYZ", .parent = -1, .first_child = -1, .last_child = -1, .next = -1};
     return p;
