@@ -335,6 +335,20 @@ static void test_called(void) {
     rig_close(&plain);
 }
 
+/* unity.bvh with hair instead of a head. */
+static void test_headless(void) {
+    const char *path = in_folder("headless.bvh");
+    FILE *in = fopen("tests/data/figure/unity.bvh", "r"), *out = fopen(path, "w");
+    char line[4096];
+    while (fgets(line, sizeof line, in)) fputs(strstr(line, "JOINT Head") ? "JOINT Hair\n" : line, out);
+    fclose(in);
+    fclose(out);
+    Rig r;
+    OK(rig_roles(&r, path, NULL) && strcmp(rig_joint(&r, ROLE_HEAD), "Neck") == 0 && r.roles.joint[ROLE_NECK] < 0,
+       "a neck with no head on it is what the head turns with");
+    rig_close(&r);
+}
+
 static void test_oddities(void) {
     Rig r;
     OK(rig_roles(&r, "tests/data/figure/swapped.bvh", NULL) &&
@@ -453,6 +467,7 @@ int main(void) {
     test_oddities();
     test_two_roots();
     test_called();
+    test_headless();
     test_role_files();
     mirrors_are_their_own_mirror();
     folder_remove();

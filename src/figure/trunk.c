@@ -175,8 +175,6 @@ void trunk_find(const Tree *t, const Limbs *limbs, Roles *out) {
     if (first >= 0) {
         int named = named_below(t, first, PART_HEAD);
         int head = named >= 0 ? tree_past_nodes(t, named, PART_HEAD) : head_by_shape(t, &h, first);
-        bool only_neck = head == first && named < 0 && t->hint[first].weight[PART_NECK] > NAMED;
-        if (only_neck) head = -1;
         if (neck < 0 && first != head) neck = named_neck(t, first, head);
         out->joint[ROLE_HEAD] = head;
     }
