@@ -25,6 +25,7 @@ typedef struct {
     Bone *bone;
     int nbones;
     double degrees; /* per unit of angle in the AMC file */
+    bool *rests;    /* by joint: the first frame has no values for it, so others need none */
 } Acclaim;
 
 struct MotionSource {

@@ -72,20 +72,39 @@ static FrameResult read_bone(Stream *s, const MotionSource *source, int frame, d
     return FRAME_WRONG;
 }
 
-static FrameResult check_complete(Stream *s, const MotionSource *source, int frame, const double *row, Error *e) {
+/* A bone without values rests if it had none in the first frame either: some files leave out fingers and toes. */
+static FrameResult check_complete(Stream *s, const MotionSource *source, int frame, double *row, Error *e) {
     const Skeleton *k = &source->skeleton;
     for (int i = 0; i < k->njoints; i++) {
         const Joint *j = &k->joint[i];
         if (j->nchannels == 0 || !isnan(row[j->first_channel])) continue;
-        if (stream_ended(s)) return FRAME_CUT;
-        stream_error(s, e, "frame %d has no values for bone '%.60s'", frame, j->name);
-        return FRAME_WRONG;
+        if (!source->acclaim->rests[i]) {
+            if (stream_ended(s)) return FRAME_CUT;
+            stream_error(s, e, "frame %d has no values for bone '%.60s'", frame, j->name);
+            return FRAME_WRONG;
+        }
+        for (int c = 0; c < j->nchannels; c++) row[j->first_channel + c] = 0;
     }
     return FRAME_READ;
 }
 
-/* Reads the frame whose number stands at s. Values not read yet are marked by NaN, which no
-   file can hold. */
+/* Which bones but the root does the first frame leave out? */
+static void find_resting(Opening *o, const double *row) {
+    const Skeleton *k = &o->source->skeleton;
+    const char *first = NULL;
+    int others = -1;
+    for (int i = 1; i < k->njoints; i++) {
+        const Joint *j = &k->joint[i];
+        if (j->nchannels == 0 || !isnan(row[j->first_channel])) continue;
+        o->source->acclaim->rests[i] = true;
+        if (!first) first = j->name;
+        others++;
+    }
+    if (others == 0) stream_note(&o->in, o->notes, "no values for bone '%.60s', which rests", first);
+    if (others > 0) stream_note(&o->in, o->notes, "no values for bone '%.60s' and %d more, which rest", first, others);
+}
+
+/* Reads the frame whose number stands at s. Values that it does not have are marked by NaN, which no file can hold. */
 static FrameResult read_frame(Stream *s, const MotionSource *source, int *number, double *row, Error *e) {
     Word w = peek(s);
     if (w.length == 0) return FRAME_NONE;
@@ -103,7 +122,7 @@ static FrameResult read_frame(Stream *s, const MotionSource *source, int *number
         FrameResult r = read_bone(s, source, *number, row, e);
         if (r != FRAME_READ) return r;
     }
-    return check_complete(s, source, *number, row, e);
+    return FRAME_READ;
 }
 
 /* Any text that begins with '#' is taken for an AMC file at first. So before its skeleton is looked for, it must look
@@ -158,6 +177,8 @@ static bool scan_frames(Opening *o, Error *e) {
         Mark start = stream_mark(s);
         source_mark(source, source->nframes, start);
         FrameResult r = read_frame(s, source, &number, row, e);
+        if (r == FRAME_READ && source->nframes == 0 && !stream_ended(s)) find_resting(o, row);
+        if (r == FRAME_READ) r = check_complete(s, source, number, row, e);
         if (r == FRAME_WRONG || !stream_sound(s, e)) return false;
         if (r == FRAME_NONE) return true;
         if (r == FRAME_CUT) {
@@ -184,6 +205,7 @@ bool acclaim_open(Opening *o, Error *e) {
     Acclaim *a = ARENA_NEW(o->arena, Acclaim, 1, e);
     if (!a || !read_head(o, &degrees, e) || (!asf && !asf_find(o, &asf, e)) || !asf_read(o, asf, a, e)) return false;
     if (degrees > 0) a->degrees = degrees;
+    if (!(a->rests = ARENA_NEW(o->arena, bool, o->motion->skeleton.njoints, e))) return false;
     o->source->acclaim = a;
     o->source->skeleton = o->motion->skeleton;
     if (o->options->fps > 0 && !source_rate(o, 0, e)) return false;
@@ -192,6 +214,7 @@ bool acclaim_open(Opening *o, Error *e) {
 
 bool acclaim_row(Stream *s, const MotionSource *source, double *row, Error *e) {
     int number;
-    if (read_frame(s, source, &number, row, e) == FRAME_READ) return true;
+    FrameResult r = read_frame(s, source, &number, row, e);
+    if (r == FRAME_READ && check_complete(s, source, number, row, e) == FRAME_READ) return true;
     return stream_sound(s, e) && error_set(e, ERR_INPUT, "'%s' has changed since it was opened", source->name);
 }
