@@ -39,6 +39,16 @@ ok 'another turn: decisions do not hang on the last digit' is_moved 1e-5 'functi
     c = cos(a = 37 * atan2(0, -1) / 180); s = sin(a)
     x = p[1]; p[1] = c * x - s * p[3]; p[3] = s * x + c * p[3] }'
 
+# Half the size, measured in half the unit: garments are the same. Bodies are not, since a small one has a larger head.
+dress walk.bvh --scale 0.5 --unit cm --output-unit 0.5 --no-body -o half
+halved() {
+    for file in half/walk/*.obj; do
+        grep -v '^#' "$file" >half.obj
+        grep -v '^#' "plain/walk/${file##*/}" | cmp -s - half.obj || { echo "$file"; return 1; }
+    done
+}
+ok 'a figure of half the size: every length of the method is measured by the height' halved
+
 # Axes renamed in a circle: what was y is z, then x. The figure's heading in the output is its own.
 around() {
     awk '$1 == "OFFSET" { x = $2; y = $3; $2 = $4; $3 = x; $4 = y } $1 == "CHANNELS" {

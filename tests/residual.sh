@@ -52,5 +52,6 @@ done
 is 'there was something to count' "$((total > 100))" 1
 limb=$(value push/squat/stats.csv 80 sheet limb_edges)
 is 'what is no collider counts as a limb' "$((limb > 0))" 1
+is 'what shows is marked as capped' "$(value push/squat/stats.csv 80 sheet capped)" 1
 
 done_testing

@@ -248,7 +248,7 @@ static void test_padding(void) {
                 padding_add(skirt, &m.figure, &m.body, &arena, &skirts, &e) &&
                 padding_add(shirt, &m.figure, &m.body, &arena, &shirts, &e);
     OK(good && skirts.is_tube && !shirts.is_tube, "a skirt is a tube, a T-shirt is none");
-    double uneven = 0, thigh = 0, sleeve = 0, bare = 0;
+    double uneven = 0, thigh = 0, lap = 0, belly = 0, sleeve = 0, bare = 0;
     for (int k = 0; k < PADDING_PLACES; k++) {
         for (int r = ROLE_LEFT_CLAVICLE; r <= ROLE_LEFT_HAND; r++)
             uneven = fmax(uneven, fabs(shirts.side[r][k] - shirts.side[r + ROLE_RIGHT_HAND - ROLE_LEFT_HAND][k]));
@@ -258,12 +258,16 @@ static void test_padding(void) {
             uneven = fmax(uneven, fabs(skirts.front[r][k] - skirts.front[right][k]));
         }
         thigh = fmax(thigh, skirts.side[ROLE_LEFT_THIGH][k]);
+        lap = fmax(lap, skirts.front[ROLE_LEFT_THIGH][k]);
+        belly = fmax(belly, shirts.front[ROLE_CHEST][k]);
         sleeve = fmax(sleeve, shirts.side[ROLE_LEFT_UPPER_ARM][k]);
         bare = fmax(bare, skirts.side[ROLE_LEFT_HAND][k] + shirts.side[ROLE_LEFT_SHIN][k]);
     }
     OK(uneven < 1e-6, "left and right alike");
     OK(thigh > 0.05 && thigh < 0.2 && sleeve > 0.01 && sleeve <= 0.0301 && bare == 0,
        "a skirt stands %.1f cm off the thighs, a sleeve %.1f off the arm", 100 * thigh, 100 * sleeve);
+    OK(lap > 0.02 && lap < 0.2 && belly > 0.01 && belly <= 0.0301,
+       "in front a skirt stands %.1f cm off the thighs, a shirt %.1f off the chest", 100 * lap, 100 * belly);
 }
 
 int main(void) {

@@ -127,9 +127,27 @@ static void test_marks(void) {
     session_close(&s);
 }
 
+/* What stands where a number should, told apart. Only the last word of a file can have been cut. */
+static void test_no_numbers(void) {
+    static const struct { const char *text; NumberResult result; } some[] = {
+        {"", NUMBER_END}, {" ", NUMBER_END}, {"-", NUMBER_CUT}, {"1.5e", NUMBER_CUT}, {"1.5e 2", NUMBER_BAD},
+        {"- 1", NUMBER_BAD}, {"1.2.3\n", NUMBER_BAD}, {"1.5x", NUMBER_BAD}, {"name", NUMBER_BAD}, {"1,5", NUMBER_COMMA},
+        {"-nan(ind)", NUMBER_INFINITE}, {"1.#QNAN", NUMBER_INFINITE}, {"1e13", NUMBER_RANGE},
+        {"0.0-7.5", NUMBER_GLUED}};
+    for (size_t i = 0; i < sizeof some / sizeof some[0]; i++) {
+        Session s;
+        double x = 0;
+        bool good = session_open(&s, some[i].text, strlen(some[i].text));
+        NumberResult result = stream_number(&s.stream, &x);
+        OK(good && result == some[i].result, "'%.6s' is told apart (%d)", some[i].text, (int)result);
+        session_close(&s);
+    }
+}
+
 int main(void) {
     if (!folder_make()) return 1;
     test_numbers();
+    test_no_numbers();
     test_edges();
     test_parted();
     test_marks();

@@ -133,6 +133,22 @@ static void memory_is_bounded(void) {
     OK(arena.held == 0, "all is given back");
 
     arena = (Arena){0};
+    e = (Error){0};
+    int *grown = NULL, capacity = 0, kept = 0, room = 0;
+    for (int i = 0; i < 1000; i++) {
+        grown = ARENA_GROW(&arena, int, grown, i, &capacity, &e);
+        if (!grown) break;
+        grown[i] = i;
+        room += capacity > i;
+    }
+    for (int i = 0; grown && i < 1000; i++) kept += grown[i] == i;
+    OK(room == 1000 && kept == 1000, "an array grows and keeps what it holds (%d, %d)", room, kept);
+    arena.limit = arena.held;
+    while (capacity < 1 << 20 && (grown = ARENA_GROW(&arena, int, grown, capacity, &capacity, &e))) continue;
+    OK(!grown && e.kind == ERR_INPUT, "but not beyond the limit (%d)", capacity);
+    arena_free(&arena);
+
+    arena = (Arena){0};
     bool good = true;
     for (int k = 0; k < 2000; k++) good = ARENA_NEW(&arena, char, k % 20 == 0 ? 700000 : 20000, &e) && good;
     OK(good && arena.held < 1.1 * (double)arena.used, "little is left over of blocks: %zu of %zu KB",
