@@ -1,5 +1,5 @@
 /* Splitting and merging cells without a jump: the new vertices of a cell that is split move from its facets to the
-   surface in a tenth of a second, and back before it is merged (geomorphing, Hoppe 1996). */
+   surface in a fifth of a second, and back before it is merged (geomorphing, Hoppe 1996). */
 #ifndef DRESS_MORPH_H
 #define DRESS_MORPH_H
 
