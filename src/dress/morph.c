@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-static const double OPENS_IN = 0.2; /* seconds: 5 mm in that time need 0.75 m/s^2, about what somebody sways with who stands */
+static const double OPENS_IN = 0.2; /* seconds: 5 mm in that time need 0.75 m/s^2, as swaying on the spot does */
 
 static int ncells(const Lattice *l, int level) { return l->fit->npatches << (2 * level); }
 
