@@ -32,7 +32,7 @@ typedef struct {
     PressTally *tally;
 } PressOrder;
 
-/* Clear with {0}: a press without places, on which everybody writes his own. */
+/* Clear with {0} for a press that takes no meshes over: then each thread writes its own. */
 typedef struct PressSheet PressSheet;
 typedef struct CrewRound CrewRound;
 typedef struct {

@@ -29,8 +29,8 @@ void raster_mesh(Raster *r, const Mesh *mesh, int front, int back);
 /* A world point in the picture: x and y in pixels from the upper left corner, z the depth. */
 Vec3 raster_place(const Raster *r, Vec3 world);
 
-/* Is nothing more than `slack` metres before this place? Surfaces that are cut by the pixels'
-   corners get the benefit of the doubt. False outside the picture. */
+/* Is nothing more than `slack` metres before this place, in its pixel or one of the eight round it? So the edge of a
+   surface counts as visible although it crosses pixels. False outside the picture. */
 bool raster_visible(const Raster *r, Vec3 place, double slack);
 
 #endif

@@ -99,7 +99,7 @@ static void speak(Batch *b) {
     }
 }
 
-/* What went wrong says of which motion, also where it lies too deep in the house to know. */
+/* Adds the motion's path to an error that does not name it: lower floors do not know it. */
 static void name_motion(Error *e, const char *path) {
     if (e->kind && !e->file[0] && !strstr(e->text, path)) snprintf(e->file, sizeof e->file, "%s", path);
 }

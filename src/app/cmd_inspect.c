@@ -44,8 +44,8 @@ static void print_warnings(const Notes *notes) {
     if (notes->count > NOTES_MAX) printf("  warning     %d more warnings\n", notes->count - NOTES_MAX);
 }
 
-/* The habit of naming joints, by a part of a name that gives it away. For the reader only: roles
-   are found without it. */
+/* Which program names joints like this, told by a part of a name that only it uses. Only printed; roles are found
+   without it. */
 static const char *naming(const Skeleton *s) {
     static const struct { const char *sign, *family; } families[] = {
         {"mixamorig", "Mixamo"},

@@ -1,5 +1,5 @@
-/* What is ours in a motion's folder goes by its name: only such files are ever removed, and the
-   record first, for without its files it would lie. */
+/* Only files with names that this program gives are ever removed from a motion's folder. The record goes first: it says
+   that the others are there. */
 #include "app/folder.h"
 
 #include <ctype.h>

@@ -1,5 +1,5 @@
-/* Help pages, made from the tables of commands and options, so that they cannot lie. An
-   example comes first, for that is what most people are looking for. */
+/* Help pages, made from the tables of commands and options, so that they always
+   agree with what is parsed. The example comes first: it is what most readers look for. */
 #include "app/help.h"
 
 #include <string.h>

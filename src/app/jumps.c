@@ -11,7 +11,7 @@ static const double FAST_LIMB = 15, FAST_PELVIS = 8, TELEPORT = 80;
 /* A step also has to be so wide, in heights: noise at a high frame rate is no jump. */
 static const double WIDE_LIMB = 0.1, WIDE_PELVIS = 0.05;
 
-/* Only near the beginning does a single limb that is fast mean a rest pose in front of the take. */
+/* A single fast limb means a rest pose in front of the take only near its beginning. */
 enum { BEGINNING = 8 };
 
 static double pelvis_step(const Figure *f, const Pose *behind, const Pose *ahead) {

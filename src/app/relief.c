@@ -1,11 +1,10 @@
-/* What a frame needs is known from its pose alone (figure/relax); to turn an arm only then would
-   jerk it. The one idea: each frame takes the largest need of all frames within a quarter of a second, and of
-   these maxima the weighted mean over another quarter of a second. Every maximum in that mean covers the
-   frame itself, so the mean is never less than what the frame needs; and it is as smooth as
-   the weights.
+/* How far an arm must be turned in a frame, its need, follows from the pose alone (figure/relax). Arms that were turned
+   by just that would move in jerks. So for each frame the largest need of all frames within a quarter of a second is
+   taken, and of these maxima the weighted mean over another quarter of a second. Each maximum in that mean is at least
+   the need of the frame itself, so the mean is as well; and it changes as smoothly as the weights.
 
-   All of it happens on the frames of the source and never across a jump, so the same frame gets the same turn
-   whatever else is dressed: other frames, another rate, another chunk. */
+   This is done on the frames of the source, and never across a jump. So a frame gets the same turn whichever other
+   frames are dressed, at any rate and in any chunk. */
 #include "app/relief.h"
 
 /* Seconds to either side over which the largest is taken, and again over which it is smoothed. */
@@ -79,7 +78,7 @@ static bool read_frame(Relief *r, Error *e) {
     return true;
 }
 
-/* The frames within the window of `frame` that no jump parts from it, and that have been read. */
+/* The frames that have been read within REACH of `frame`, with no jump between. */
 static void window_of(const Relief *r, int frame, int *first, int *last) {
     int stretch = moment_of(r, frame)->stretch;
     *first = frame - r->reach > r->begin ? frame - r->reach : r->begin;
@@ -88,8 +87,8 @@ static void window_of(const Relief *r, int frame, int *first, int *last) {
     while (moment_of(r, *last)->stretch != stretch) --*last;
 }
 
-/* The largest need in the window. Its ends lie between frames: what is needed there is between what
-   these need, so that the maximum does not depend on where the source has its frames. */
+/* The largest need in the window. Where an end of the window lies between two frames, the need there is interpolated,
+   so that the maximum does not depend on where the source has its frames. */
 static void find_most(Relief *r, int frame) {
     int first, last;
     double part = r->span - (r->reach - 1);

@@ -128,7 +128,7 @@ static bool put_span(FrameSpan *field, const Option *option, const char *text, E
     return settings_expected(option->name, "A:B:STEP with frames from 1 and A <= B", text, e);
 }
 
-/* The walk checks how steep a stair may be; here every part is a number and counts at least 1. */
+/* Three numbers, the last a whole one from 1 on. How steep a stair may be is checked in motion/gait. */
 static bool put_stairs(Gait *field, const Option *option, const char *text, Error *e) {
     double part[3] = {0, 0, 0};
     const char *at = text;

@@ -1,15 +1,13 @@
 /* From the rows of a motion file to the poses that are dressed.
 
-   The one idea is a window of two neighbouring source frames that only moves forward. A
-   resampled frame lies between the two: each joint's transform relative to its parent is
-   interpolated (rotations as quaternions, never the file's angles, which wrap and lock), so
-   that bones keep their length. And because every source frame passes through the window, also
-   those that are skipped, no jump goes unseen.
+   A window of two neighbouring source frames moves forward only. A resampled frame lies between the two: each joint's
+   transform relative to its parent is interpolated (rotations as quaternions; the file's angles would wrap around and
+   lock), so that bones keep their length. Every source frame passes through the window, also those that are skipped, so
+   no jump is missed.
 
-   A jump is a step that no body makes: a T-pose in front of the take, or a root that teleports
-   (rows 25 and 26 of the table of defects). Both sides are dressed as they stand, but nothing is
-   carried across, and nothing interpolated between. Where the motion is back at once, as if it had
-   not jumped, the frames over there are astray: they are dressed, and then forgotten. */
+   A jump is a step that no body makes: a T-pose in front of the take, or a root that teleports. Both sides are dressed
+   as they stand, but nothing is carried across, and nothing is interpolated between. If the motion is back at once, as
+   if it had not jumped, the frames between are astray: they are dressed, and then forgotten. */
 #include "app/take.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Sorted, because the order in which a file system tells its names is nobody's business. */
+/* Names are sorted, since file systems list them in any order. */
 #include "files/listing.h"
 
 #include <dirent.h>

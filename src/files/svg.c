@@ -1,4 +1,4 @@
-/* The words of SVG. The one idea is few digits: a tenth of a point is finer than any printer
+/* The words of SVG. Numbers have few digits: a tenth of a point is finer than any printer
    needs, keeps files small, and lets pictures of equal things have equal bytes. */
 #include "files/svg.h"
 
