@@ -353,6 +353,23 @@ static void test_paper(void) {
     take_close(&t);
 }
 
+/* The least distance between the shins, from knee to ankle, in any frame. */
+static double least_between_shins(const Take *t) {
+    enum { STEPS = 8 };
+    int knee[2] = {joint(t, "Left", "Leg"), joint(t, "Right", "Leg")};
+    int ankle[2] = {joint(t, "Left", "Foot"), joint(t, "Right", "Foot")};
+    double least = INFINITY;
+    for (int f = 0; f < t->motion.nframes; f++)
+        for (int k = 0; k < (STEPS + 1) * (STEPS + 1); k++) {
+            double at[2] = {(double)(k / (STEPS + 1)) / STEPS, (double)(k % (STEPS + 1)) / STEPS};
+            Vec3 p[2];
+            for (int side = 0; side < 2; side++)
+                p[side] = vec_lerp(place(t, f, knee[side]).t, place(t, f, ankle[side]).t, at[side]);
+            least = fmin(least, vec_dist(p[0], p[1]));
+        }
+    return least;
+}
+
 static void test_squat_and_turn(void) {
     Gait g = gait("squat");
     Take t;
@@ -371,6 +388,8 @@ static void test_squat_and_turn(void) {
         int last = t.motion.nframes - 1;
         NEAR(channel(&t, last, 0, CHANNEL_RY), 180, 0.01, "the walker looks back");
         OK(fabs(place(&t, last, 0).t.z - place(&t, 0, 0).t.z) < 10, "and has come back");
+        double between = least_between_shins(&t);
+        OK(between > 0.03 * t.height, "with no leg through the other (shins %.1f cm apart)", between);
     }
     take_close(&t);
 }

@@ -24,7 +24,9 @@ typedef struct {
     Rigid ground;            /* origin under the ankle of a flat foot, y = up from the ground, z = to the toes */
     double strike, lift;     /* pitch at contact and at release against the ground */
     double climb;            /* height gained on stairs since the same foot's last place */
-    double clearance;        /* extra height in the swing that ends here */
+    double clearance;        /* extra height in the swing that ends here, */
+    Vec3 detour;             /* and how far its middle lies beside the straight line: round a bend that would lead
+                                through the other leg */
 } Footfall;
 
 /* A foot's frame (origin at the ankle) and the bend of its toes. */

@@ -140,6 +140,7 @@ static Vec3 swing_ankle(const GaitBody *body, const Footfall *from, const Footfa
     swing_shape(0.001, &soon, &ignored);
     Vec3 astray = vec_mad(vec_sub(a, b), mat_column(from->ground.r, 2), length);
     Vec3 ankle = vec_mad(vec_lerp(a, b, progress), astray, soon / 0.001 * x * (1 - x) * (1 - x) * (1 - x));
+    ankle = vec_mad(ankle, to->detour, 16 * x * x * (1 - x) * (1 - x));
     if (to->climb > 0) {
         ankle = vec_lerp(a, b, smoothstep(0.25, 1, x));
         ankle.y = a.y + (b.y - a.y) * smoothstep(0, 0.55, x);

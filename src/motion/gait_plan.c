@@ -97,6 +97,15 @@ static void shape_swing(const GaitPlan *plan, GaitStep *from, GaitStep *to) {
     from->foot.lift = ground->rise > 0 ? LIFT_UP : LIFT_DOWN;
 }
 
+/* Half way round a bend the swinging foot passes the standing one as far aside as if it stepped there. */
+static void shape_bend(const GaitPlan *plan, const GaitStep *from, const GaitStep *past, GaitStep *to) {
+    double out = to->foot.side == GAIT_LEFT ? 1 : -1;
+    Vec3 aside = mat_column(mat_axis_angle(vec(0, 1, 0), past->heading * PI / 180), 0);
+    Vec3 beside = vec_mad(past->centre, aside, out * WALKING_WIDTH / 2 * plan->body.height);
+    Vec3 middle = vec_mid(from->foot.ground.t, to->foot.ground.t);
+    to->foot.detour = vec_scale(aside, vec_dot(vec_sub(beside, middle), aside));
+}
+
 /* Ground as a careful walker sees it: risers are a little thicker than they are. */
 static double cautious_height(const GaitPlan *plan, double z) {
     double room = 0.5 * RISER_ROOM * plan->body.height;
@@ -139,6 +148,7 @@ bool gait_plan(const Gait *g, Arena *arena, GaitPlan *out, Error *e) {
         else follow_track(out, k, step);
         place_foot(out, i, i < 2 || i > g->steps ? STANDING_WIDTH : WALKING_WIDTH, step);
         if (i >= 2) shape_swing(out, step - 2, step);
+        if (i >= 2 && turns) shape_bend(out, step - 2, step - 1, step);
     }
     for (int i = 2; i < out->nsteps; i++) clear_ground(out, out->step + i - 2, out->step + i);
     out->start = -1;
