@@ -24,15 +24,23 @@ static inline void need(const Scene *s, bool good) {
     exit(1);
 }
 
-static inline void scene_open(Scene *s, const char *garment) {
+/* size: of the figure, 1 is the reference; meshes are in as many metres. */
+static inline void scene_open_sized(Scene *s, const char *garment, double size) {
     char path[128];
     snprintf(path, sizeof path, "garments/%s.garment", garment);
     *s = (Scene){.figure = figure_reference()};
+    s->figure.height *= size;
+    for (int r = 0; r < ROLE_COUNT; r++) {
+        s->figure.start[r] = vec_scale(s->figure.start[r], size);
+        s->figure.end[r] = vec_scale(s->figure.end[r], size);
+    }
     s->garment = ARENA_NEW(&s->arena, Garment, 1, &s->error);
     need(s, s->garment && garment_read(path, &s->arena, s->garment, &s->error));
     need(s, body_fit(body_default(), &s->figure, 16, &s->arena, &s->body, &s->error));
-    need(s, body_frame_init(&s->posed, &s->body, 1, &s->arena, &s->error));
+    need(s, body_frame_init(&s->posed, &s->body, 1 / size, &s->arena, &s->error));
 }
+
+static inline void scene_open(Scene *s, const char *garment) { scene_open_sized(s, garment, 1); }
 
 static inline Dresser *scene_dresser(Scene *s, DressOptions options) {
     Dresser *d = NULL;

@@ -108,9 +108,37 @@ static void hand_between_knees(void) {
     arena_free(&s.arena);
 }
 
+/* All lengths of the method are measured by the height: half the figure has the same cloth, half as large. */
+static void half_the_size(const char *garment) {
+    static const double sizes[2] = {1, 0.5};
+    static Scene scene[2];
+    Dresser *dresser[2];
+    Mesh mesh[2];
+    double off = 0, moved = 0;
+    for (int i = 0; i < 2; i++) {
+        scene_open_sized(&scene[i], garment, sizes[i]);
+        dresser[i] = scene_dresser(&scene[i], (DressOptions){.fixed_topology = true});
+    }
+    for (int k = 0; k < 4; k++) {
+        FrameStats stats[2];
+        for (int i = 0; i < 2; i++) {
+            Pose pose = k < 2 ? hand_in_lap(&scene[i], 33 + k) : scene_reaching(&scene[i], 37.5 + 2.5 * k);
+            stats[i] = scene_frame(&scene[i], dresser[i], &pose, 1 / 30.0, k ? TIE_GOES_ON : TIE_AFRESH, &mesh[i]);
+        }
+        for (int v = 0; v < mesh[0].nvertices; v++)
+            off = fmax(off, vec_dist(mesh[0].position[v], mesh[1].position[v]));
+        moved = fmax(moved, stats[0].displacement);
+    }
+    OK(moved > 0.03 && off < 1e-5, "%s, half as large: moved by up to %.0f mm, %.2g m off", garment, 1000 * moved, off);
+    for (int i = 0; i < 2; i++) arena_free(&scene[i].arena);
+}
+
 int main(void) {
     hand_on_cloth("skirt", 40, 42.5, 47.5);
     hand_on_cloth("trousers", 42.5, 45, 47.5);
     hand_between_knees();
+    half_the_size("skirt");
+    half_the_size("trousers");
+    half_the_size("tshirt");
     return tap_done();
 }
