@@ -167,7 +167,7 @@ static double hit_distance(Pushed *p, const TesterHit *hit) {
 static void moves_hits_off(void) {
     static Pushed p;
     FrameStats stats = {0};
-    push(&p, "trousers", 0.3);
+    push(&p, "trousers", 0.1);
     Cloth *c = &p.cloth;
     const BodyFrame *body = &p.of.scene.posed;
     Wrong w = attempt_test(c, body, &stats);
