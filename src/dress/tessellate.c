@@ -48,13 +48,19 @@ static void add_triangle(Sheet *s, bool flip, int a, int b, int c) {
     add_edge(s, c, a);
 }
 
-/* Walks from a corner of a facet to the next in steps of one lattice place and lists the corner
-   and the marked places behind it, up to the next corner. */
-static int side_vertices(Sheet *s, int patch, int i, int j, int di, int dj, int stride, int *out) {
+/* One side of a facet or a leaf: so many lattice steps from a corner to the next, each by (di, dj). */
+typedef struct { LatticeIndex from; int di, dj, steps; } GridSide;
+
+static int side_place(const Sheet *s, const GridSide *side, int k) {
+    return lattice_place(s->lattice, side->from.patch, side->from.i + k * side->di, side->from.j + k * side->dj);
+}
+
+/* Lists a facet's corner and the marked places on the side that begins there, up to the next corner. */
+static int side_vertices(Sheet *s, GridSide side, int *out) {
     int n = 0;
-    out[n++] = vertex_at(s, patch, i, j);
-    for (int k = 1; k < stride; k++) {
-        int v = s->vertex[lattice_place(s->lattice, patch, i + k * di, j + k * dj)];
+    out[n++] = vertex_at(s, side.from.patch, side.from.i, side.from.j);
+    for (int k = 1; k < side.steps; k++) {
+        int v = s->vertex[side_place(s, &side, k)];
         if (v >= 0) out[n++] = v;
     }
     return n;
@@ -63,10 +69,10 @@ static int side_vertices(Sheet *s, int patch, int i, int j, int di, int dj, int 
 static void add_facet(Sheet *s, int patch, int i, int j, int stride) {
     bool flip = s->lattice->fit->patch[patch].flip;
     int ring[4 << LATTICE_DEPTH_MAX], n = 0;
-    n += side_vertices(s, patch, i, j, 1, 0, stride, ring);
-    n += side_vertices(s, patch, i + stride, j, 0, 1, stride, ring + n);
-    n += side_vertices(s, patch, i + stride, j + stride, -1, 0, stride, ring + n);
-    n += side_vertices(s, patch, i, j + stride, 0, -1, stride, ring + n);
+    n += side_vertices(s, (GridSide){{patch, i, j}, 1, 0, stride}, ring);
+    n += side_vertices(s, (GridSide){{patch, i + stride, j}, 0, 1, stride}, ring + n);
+    n += side_vertices(s, (GridSide){{patch, i + stride, j + stride}, -1, 0, stride}, ring + n);
+    n += side_vertices(s, (GridSide){{patch, i, j + stride}, 0, -1, stride}, ring + n);
     if (n == 4) {
         add_triangle(s, flip, ring[0], ring[1], ring[2]);
         add_triangle(s, flip, ring[0], ring[2], ring[3]);
@@ -141,11 +147,11 @@ Mesh sheet_mesh(const Sheet *s, Vec3 *position) {
                   .edge = s->edge};
 }
 
-/* Lists the edges along one side of a leaf, `places` lattice steps long, that the mesh has there. */
-static int side_borders(const Sheet *s, int patch, int i, int j, int di, int dj, int places, Edge *out) {
-    int n = 0, last = s->vertex[lattice_place(s->lattice, patch, i, j)];
-    for (int k = 1; k <= places; k++) {
-        int v = s->vertex[lattice_place(s->lattice, patch, i + k * di, j + k * dj)];
+/* Lists the edges that the mesh has along one side of a leaf. */
+static int side_borders(const Sheet *s, GridSide side, Edge *out) {
+    int n = 0, last = s->vertex[side_place(s, &side, 0)];
+    for (int k = 1; k <= side.steps; k++) {
+        int v = s->vertex[side_place(s, &side, k)];
         if (v < 0 || v == last) continue; /* no vertex here, or a pole */
         out[n++] = last < v ? (Edge){{last, v}} : (Edge){{v, last}};
         last = v;
@@ -169,10 +175,10 @@ int sheet_borders(const Sheet *s, const Leaves *leaves, Edge *out) {
                 int level = leaf_at(leaves, p, x, y), i = x * l->detail, j = y * l->detail;
                 if (level < 0) continue;
                 int size = l->side >> level;
-                listed += side_borders(s, p, i, j, 1, 0, size, out + listed);
-                listed += side_borders(s, p, i, j, 0, 1, size, out + listed);
-                listed += side_borders(s, p, i, j + size, 1, 0, size, out + listed);
-                listed += side_borders(s, p, i + size, j, 0, 1, size, out + listed);
+                listed += side_borders(s, (GridSide){{p, i, j}, 1, 0, size}, out + listed);
+                listed += side_borders(s, (GridSide){{p, i, j}, 0, 1, size}, out + listed);
+                listed += side_borders(s, (GridSide){{p, i, j + size}, 1, 0, size}, out + listed);
+                listed += side_borders(s, (GridSide){{p, i + size, j}, 0, 1, size}, out + listed);
             }
     qsort(out, (size_t)listed, sizeof *out, by_vertices);
     for (int k = 0; k < listed; k++)
