@@ -61,6 +61,8 @@ ok 'no garment' refuses 2 'nothing to put on' "$walk" -o x.svg
 ok 'no output' refuses 2 'no place to write to' "$walk" -g "$skirt"
 ok 'a frame behind the end' refuses 2 "asks for frame 73, but .* has 72" "$walk" -g "$skirt" -o x.svg --frames 3,73
 ok 'too many' refuses 2 '72 pictures are too many' "$walk" -g "$skirt" -o x.svg --frames 1:72
+ok 'too many with their cells' refuses 2 '80 pictures are too many' "$walk" -g "$skirt" -o x.svg --frames 1:40 \
+    --cell push --cell none
 ok 'an unknown view' refuses 2 "option '--view': expected front" "$walk" -g "$skirt" -o x.svg --view top
 ok 'an elevation over the head' refuses 2 "EL from -89 to 89" "$walk" -g "$skirt" -o x.svg --view 0/90
 ok 'an unknown word in a cell' refuses 2 "option '--cell'.*'push,foo'" "$walk" -g "$skirt" -o x.svg --cell push,foo
