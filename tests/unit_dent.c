@@ -119,7 +119,7 @@ static void half_the_size(const char *garment) {
         scene_open_sized(&scene[i], garment, sizes[i]);
         dresser[i] = scene_dresser(&scene[i], (DressOptions){.fixed_topology = true});
     }
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 5; k++) {
         FrameStats stats[2];
         for (int i = 0; i < 2; i++) {
             Pose pose = k < 2 ? hand_in_lap(&scene[i], 33 + k) : scene_reaching(&scene[i], 37.5 + 2.5 * k);

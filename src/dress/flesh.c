@@ -116,13 +116,13 @@ static double most_at(const BodyFrame *f, int part, Vec3 p) {
    stays twice counts half. */
 static double way_in(const BodyFrame *f, int p, Vec3 skin, double level, double left, double most, Vec3 *n) {
     enum { STEPS = 16 };
-    static const double CLOSE = 1e-6, SLIGHT = 1e-3, LONGEST = 2; /* metres; metres; times what is left */
+    static const double CLOSE = 1e-6, SLIGHT = 1e-3, LONGEST = 2; /* metres on 1.70 m, twice; times what is left */
     Vec3 inwards = vec_scale(*n, -1);
-    double out = 0, in = INFINITY, over = 0, way = fmin(left, most);
+    double out = 0, in = INFINITY, over = 0, way = fmin(left, most), scale = figure_scale(f->body->height);
     for (int k = 0, side = 0; k < STEPS && left > 0; k++) {
         double gap = body_frame_distance(f, p, vec_mad(skin, inwards, way), INFINITY, n) - level;
-        if (fabs(gap) <= CLOSE || (gap > 0 && way >= most)) break;
-        if (left < SLIGHT && gap > left && in == INFINITY) return out;
+        if (fabs(gap) <= CLOSE * scale || (gap > 0 && way >= most)) break;
+        if (left < SLIGHT * scale && gap > left && in == INFINITY) return out;
         double shrinks = (left - gap) / (way - out);
         if (gap > 0) {
             over *= side > 0 ? 0.5 : 1;
