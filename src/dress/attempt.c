@@ -10,7 +10,7 @@
 
 enum { ROUNDS_MAX = 9, SOLVE_EVERY = 3 }; /* rounds of asking for more distance; after so many the whole surface */
 enum { MANY = 4 };                   /* if more than one in so many vertices has moved, the whole mesh is tested */
-static const double HOPELESS = 0.045; /* findings per edge of the mesh: in 18,400 frames more was never mended */
+static const double HOPELESS = 0.045; /* findings per edge of the mesh: more are hardly ever mended */
 static const double HEADWAY = 0.7;   /* an attempt ends if more of the bad vertices is left after SOLVE_EVERY rounds */
 static const double RAISE = 0.002;   /* clearance added to a bad vertex in a round, metres on 1.70 m */
 enum { FLAT_ROUNDS = 4, FLAT_MOST = 256 }; /* of raising flat facets: rounds, and vertices moved in each */
