@@ -13,8 +13,8 @@
 
 /* Caps and tolerances, metres on a figure of 1.70 m where they are lengths. */
 enum { SWEEPS_MAX = 30, STALL = 3, ROUNDS_MAX = 3 };
-static const double REACH = 0.015, REACHES_ON = 0.03; /* vertices farther from the body are no samples: in the first
-                                                        round; in the next ones, if anything has moved farther */
+static const double REACH = 0.015;   /* vertices farther from the body are no samples in the first round, */
+static const double REACHES_ON = 0.03; /* and farther than this in later ones, which follow if one moved the reach */
 static const double SLACK = 0.1;     /* share of the clearance that may be missing after the sweeps */
 static const double PIN_GIVES = 0.2; /* a pinned level vertex of the finest level moves this share of what a free one
                                         would, */
@@ -353,13 +353,17 @@ void push_rest(Push *p) {
     find_points(p);
 }
 
+/* What was found within a shorter reach tells nothing of the parts beyond it. */
+static void set_reach(Push *p, double reach) {
+    if (reach > p->reach) p->near_known = false;
+    p->reach = reach;
+}
+
 void push_solve(Push *p, PushResult *result) {
     double moved = INFINITY;
     field_drop_spots(&p->field.dent);
     for (int round = 0; round < ROUNDS_MAX && moved >= p->reach; round++) {
-        double reach = (round == 0 ? REACH : REACHES_ON) * p->field.scale;
-        if (reach > p->reach) p->near_known = false;
-        p->reach = reach;
+        set_reach(p, (round == 0 ? REACH : REACHES_ON) * p->field.scale);
         find_samples(p);
         moved = sweep_all(p, result); /* if less than its reach, no vertex that was far away can have come near */
     }
