@@ -71,12 +71,22 @@ static void follow_track(const GaitPlan *plan, int k, GaitStep *step) {
     step->heading = 0;
 }
 
+/* Unit, to the left of who goes on from a step. */
+static Vec3 left_of(const GaitStep *step) {
+    return mat_column(mat_axis_angle(vec(0, 1, 0), step->heading * PI / 180), 0);
+}
+
+/* The place of the left or right foot beside the middle of a step; width: between the two, in statures. */
+static Vec3 beside(const GaitPlan *plan, const GaitStep *step, int side, double width) {
+    double out = side == GAIT_LEFT ? 1 : -1;
+    return vec_mad(step->centre, left_of(step), out * width / 2 * plan->body.height);
+}
+
 static void place_foot(const GaitPlan *plan, int i, double width, GaitStep *step) {
     double out = step->foot.side == GAIT_LEFT ? 1 : -1;
-    Mat3 heading = mat_axis_angle(vec(0, 1, 0), step->heading * PI / 180);
     Mat3 foot = mat_axis_angle(vec(0, 1, 0), (step->heading + out * TOE_OUT) * PI / 180);
-    Vec3 aside = mat_apply(heading, vec(out * width / 2 * plan->body.height, 0, 0));
-    step->foot.ground = (Rigid){mat_mul(gait_pitch(plan->ground.slope), foot), vec_add(step->centre, aside)};
+    step->foot.ground.r = mat_mul(gait_pitch(plan->ground.slope), foot);
+    step->foot.ground.t = beside(plan, step, step->foot.side, width);
     step->foot.contact = i < 2 ? -NEVER : i - 1;
     step->foot.release = NEVER;
 }
@@ -99,11 +109,9 @@ static void shape_swing(const GaitPlan *plan, GaitStep *from, GaitStep *to) {
 
 /* Half way round a bend the swinging foot passes the standing one as far aside as if it stepped there. */
 static void shape_bend(const GaitPlan *plan, const GaitStep *from, const GaitStep *past, GaitStep *to) {
-    double out = to->foot.side == GAIT_LEFT ? 1 : -1;
-    Vec3 aside = mat_column(mat_axis_angle(vec(0, 1, 0), past->heading * PI / 180), 0);
-    Vec3 beside = vec_mad(past->centre, aside, out * WALKING_WIDTH / 2 * plan->body.height);
+    Vec3 left = left_of(past), passing = beside(plan, past, to->foot.side, WALKING_WIDTH);
     Vec3 middle = vec_mid(from->foot.ground.t, to->foot.ground.t);
-    to->foot.detour = vec_scale(aside, vec_dot(vec_sub(beside, middle), aside));
+    to->foot.detour = vec_scale(left, vec_dot(vec_sub(passing, middle), left));
 }
 
 /* Ground as a careful walker sees it: risers are a little thicker than they are. */
