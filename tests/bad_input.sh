@@ -65,7 +65,7 @@ for number in nan inf -nan 1e999 0x10 1,5 five; do
     sed "$last"'s/^[^ ]*/'"$number/" good.bvh >x.bvh
     motion "a value '$number'" "^x.bvh:$last:1: error: frame 4, joint 'Hips', Xposition"
 done
-sed 's/CHANNELS 3/CHANNELS 1000000/' good.bvh >x.bvh; motion 'a million channels' '1000000 CHANNELS: a joint has 0 to 6'
+sed 's/CHANNELS 3/CHANNELS 1000000/' good.bvh >x.bvh; motion 'a million channels' '1000000 CHANNELS: a joint has 0 to 9'
 sed 's/CHANNELS 3 Xrotation/CHANNELS 3 Wrotation/' good.bvh >x.bvh; motion 'an unknown channel' "found 'Wrotation'"
 sed 's/OFFSET/OFSET/' good.bvh >x.bvh; motion 'an unknown word' "x.bvh:4:2: error: .*found 'OFSET'"
 sed '4s/OFFSET.*/OFFSET 0 zero 0/' good.bvh >x.bvh; motion 'a word for a number' "x.bvh:4:11: error: .*found 'zero'"

@@ -136,7 +136,10 @@ static const Case heads[] = {
     {"no OFFSET", "HIERARCHY\nROOT a\n{\nCHANNELS 0\n}\n", 0, "joint 'a' has no OFFSET", 5, 1, 0},
     {"two OFFSETs", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nOFFSET 0 0 0\n}\n", 0, "a second OFFSET", 5, 7, 0},
     {"no channels at all", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n}\n" ONE, 0, "no joint of", 0, 0, 0},
-    {"a million channels", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1000000\n", 0, "a joint has 0 to 6", 5, 17, 0},
+    {"a million channels", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1000000\n", 0, "a joint has 0 to 9", 5, 17, 0},
+    {"scale channels",
+     "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 6 Xscale Yscale Zscale Xrotation Yrotation Zrotation\n}\n"
+     ONE "1 1 1 5 6 7\n", 1, "scale channels, left out", 5, 12, 7},
     {"channels of an End Site", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nEnd Site\n{\nCHANNELS 1 Xrotation\n", 0,
      "an End Site has none", 7, 11, 0},
     {"a joint in an End Site", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nEnd Site\n{\nJOINT b\n", 0,

@@ -7,7 +7,11 @@
 
 #include "geometry/vec.h"
 
-typedef enum { CHANNEL_TX, CHANNEL_TY, CHANNEL_TZ, CHANNEL_RX, CHANNEL_RY, CHANNEL_RZ } ChannelKind;
+/* Scales are read, but nothing is scaled by them: bones are rigid. */
+typedef enum {
+    CHANNEL_TX, CHANNEL_TY, CHANNEL_TZ, CHANNEL_RX, CHANNEL_RY, CHANNEL_RZ, CHANNEL_SX, CHANNEL_SY, CHANNEL_SZ,
+    CHANNEL_KINDS
+} ChannelKind;
 
 typedef struct {
     const char *name;         /* as in the file, trimmed; an end site is "PARENT_End" */
@@ -15,8 +19,8 @@ typedef struct {
     Vec3 offset;              /* from the parent's origin, in the parent's frame */
     Mat3 axis;                /* ASF `axis`: the rotation is axis * R * axis^T; identity for BVH */
     bool has_axis, is_end;    /* is_end: an end site, without channels */
-    int nchannels;            /* 0..6 */
-    ChannelKind channel[6];   /* in the order of the file; R = product in that order */
+    int nchannels;            /* 0..CHANNEL_KINDS */
+    ChannelKind channel[CHANNEL_KINDS]; /* in the order of the file; R = product in that order */
     int first_channel;        /* column of the first one in a row */
 } Joint;
 

@@ -11,7 +11,7 @@ enum { MARKS_MAX = 1024 };
 
 /* Where the values of a bone's line in an AMC file go. An ASF file lists degrees of freedom in any order, seven at
    most: three of translation, three of rotation, and length. */
-enum { DOF_MAX = 7, DOF_LENGTH = CHANNEL_RZ + 1 };
+enum { DOF_MAX = 7, DOF_LENGTH = CHANNEL_KINDS };
 typedef struct {
     const char *name;
     int joint, ndof;
@@ -58,7 +58,7 @@ MUST_CHECK bool bvh_row(Stream *s, const MotionSource *source, double *row, Erro
 /* bvh_head.c: reads up to MOTION and hands the skeleton to source_skeleton. */
 MUST_CHECK bool bvh_head(Opening *o, Error *e);
 /* A channel's name in a BVH file, by its ChannelKind. */
-extern const char *const bvh_channels[];
+extern const char *const bvh_channels[CHANNEL_KINDS];
 
 /* acclaim.c: the same for AMC files. */
 MUST_CHECK bool acclaim_open(Opening *o, Error *e);

@@ -7,7 +7,8 @@
 
 enum { NESTING_MAX = 1000, NAME_MAX_BYTES = 1000, FIRST_JOINTS = 128 };
 
-const char *const bvh_channels[] = {"Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation"};
+const char *const bvh_channels[CHANNEL_KINDS] = {"Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation",
+                                                 "Zrotation", "Xscale",    "Yscale",    "Zscale"};
 
 typedef struct {
     bool offset, channels;
@@ -21,6 +22,7 @@ typedef struct {
     int open, depth;      /* the joint whose brace is open, -1 for none; braces open */
     Seen *seen;           /* per joint */
     bool await_brace;     /* a joint was named, and its '{' must follow */
+    bool scaled;          /* seen: a scale channel */
 } Head;
 
 static const char *joint_name(const Head *h, int i) { return h->joint[i].name; }
@@ -126,17 +128,21 @@ static bool read_channels(Head *h, Error *e) {
     h->seen[h->open].channels = true;
     NumberResult r = stream_number(s, &count);
     if (r > NUMBER_GLUED) return stream_refuse(s, r, "the number of CHANNELS", e);
-    int most = j->is_end ? 0 : 6;
+    int most = j->is_end ? 0 : CHANNEL_KINDS;
     if (!(count >= 0 && count <= most) || count != (int)count)
         return stream_error(s, e, "%.0f CHANNELS: %s", count,
-                            j->is_end ? "an End Site has none" : "a joint has 0 to 6");
+                            j->is_end ? "an End Site has none" : "a joint has 0 to 9");
     for (; j->nchannels < (int)count; j->nchannels++) {
         Word w = stream_peek(s);
         int kind = 0;
-        while (kind < 6 && !word_is(w, bvh_channels[kind])) kind++;
-        if (kind == 6)
+        while (kind < CHANNEL_KINDS && !word_is(w, bvh_channels[kind])) kind++;
+        if (kind == CHANNEL_KINDS)
             return stream_error(s, e, "expected Xposition .. Zposition or Xrotation .. Zrotation, found '%.*s'",
                                 error_shown(w.length), w.start);
+        if (kind >= CHANNEL_SX && !h->scaled) {
+            h->scaled = true;
+            stream_note(s, h->o->notes, "scale channels, left out");
+        }
         j->channel[j->nchannels] = (ChannelKind)kind;
         s->at += w.length;
     }

@@ -26,7 +26,7 @@ static bool spool(int from, const char *name, int *fd, Error *e) {
     while ((n = read(from, block, sizeof block)) != 0) {
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) error_set(e, ERR_INPUT, "cannot read '%s': %s", name, strerror(errno));
-        else if (memchr(block, 0, (size_t)n)) error_set(e, ERR_INPUT, "'%s' is a binary file, not text", name);
+        else if (memchr(block, 0, (size_t)n)) error_set(e, ERR_INPUT, "'%s' is a binary file or UTF-16, not plain text", name);
         else if (fwrite(block, 1, (size_t)n, f) != (size_t)n)
             error_set(e, ERR_OUTPUT, "cannot keep '%s' in a temporary file: %s", name, strerror(errno));
         else continue;
@@ -45,7 +45,7 @@ static bool check_text(int fd, const char *name, Error *e) {
     ssize_t n = pread(fd, start, sizeof start, 0);
     if (n < 0) return error_set(e, ERR_INPUT, "cannot read '%s': %s", name, strerror(errno));
     if (n == 0) return error_set(e, ERR_INPUT, "'%s' is empty", name);
-    if (memchr(start, 0, (size_t)n)) return error_set(e, ERR_INPUT, "'%s' is a binary file, not text", name);
+    if (memchr(start, 0, (size_t)n)) return error_set(e, ERR_INPUT, "'%s' is a binary file or UTF-16, not plain text", name);
     return true;
 }
 

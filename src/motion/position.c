@@ -56,7 +56,9 @@ static bool turns(const Skeleton *s, const double *row) {
     for (int i = 0; i < s->njoints; i++) {
         const Joint *j = &s->joint[i];
         for (int k = 0; k < j->nchannels; k++)
-            if (j->parent >= 0 && j->channel[k] >= CHANNEL_RX && row[j->first_channel + k] != 0) return true;
+            if (j->parent >= 0 && j->channel[k] >= CHANNEL_RX && j->channel[k] <= CHANNEL_RZ &&
+                row[j->first_channel + k] != 0)
+                return true;
     }
     return false;
 }

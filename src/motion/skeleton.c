@@ -27,7 +27,8 @@ static Rigid local(const Joint *j, const double *value, bool adds) {
         case CHANNEL_TX: g.t.x = adds ? j->offset.x + value[i] : value[i]; break;
         case CHANNEL_TY: g.t.y = adds ? j->offset.y + value[i] : value[i]; break;
         case CHANNEL_TZ: g.t.z = adds ? j->offset.z + value[i] : value[i]; break;
-        default: g.r = turn(g.r, j->channel[i], value[i]);
+        case CHANNEL_RX: case CHANNEL_RY: case CHANNEL_RZ: g.r = turn(g.r, j->channel[i], value[i]); break;
+        default: break;
         }
     }
     if (j->has_axis) g.r = mat_mul(mat_mul(j->axis, g.r), mat_transpose(j->axis));
