@@ -23,6 +23,7 @@ static const double SAME_SIDE = 20;     /* lost by two limbs of the same side */
 static const double COVERAGE = 8;
 static const double UNEVEN = 4, SKIPPED = 0.4, FORKED = 2, BENT = 20, FAR_START = 4, NO_END_JOINT = 1;
 static const double COINCIDES = 0.5, MIRROR = 8;
+static const double STILL = 2; /* lost by a limb that never moves against its hub */
 
 /* For legs and arms. The usual ln(upper bone / lower bone): 0.415 m / 0.39 m, 0.28 / 0.25 in the reference figure. */
 static const double EVEN[2] = {0.06, 0.11};
@@ -153,6 +154,22 @@ static double skip_points(const Tree *t, const Way *w, int from, int to, double 
     return path > 0 ? points - BENT * (1 - chord / path) : points;
 }
 
+/* Does a limb that leaves `hub` keep still against it in all frames? Beside the bones that move the body, rigs carry
+   chains of the same names for their animators, which may be at rest. */
+static bool keeps_still(const Tree *t, int hub, const Limb *limb) {
+    static const double NO_MOVE = 1e-3; /* of the limb */
+    for (int i = 1; i < 3; i++) {
+        Vec3 first = {0, 0, 0};
+        for (int f = 0; f < t->sample->count; f++) {
+            Rigid g = sample_at(t->sample, f, hub);
+            Vec3 at = mat_apply(mat_transpose(g.r), vec_sub(sample_point(t->sample, f, limb->joint[i]), g.t));
+            if (f == 0) first = at;
+            if (vec_dist(at, first) > NO_MOVE * (limb->length[0] + limb->length[1])) return false;
+        }
+    }
+    return true;
+}
+
 /* Scores the limb of the chain's joints a, b and its last one, and keeps it in *best if it is better. */
 static void try_limb(const Tree *t, LimbKind kind, const Way *w, int a, int b, Limb *best) {
     int c = w->count - 1, end = w->joint[c];
@@ -175,6 +192,8 @@ static void try_limb(const Tree *t, LimbKind kind, const Way *w, int a, int b, L
         limb.clavicle = find_clavicle(t, w, a, &points);
         limb.score += points;
     }
+    if (best->found && limb.score <= best->score + 1e-9) return;
+    if (keeps_still(t, t->skeleton->joint[w->joint[0]].parent, &limb)) limb.score -= STILL;
     if (best->found && limb.score <= best->score + 1e-9) return;
     int votes = 0;
     for (int i = 0; i < w->count; i++) votes += t->hint[w->joint[i]].side;
