@@ -43,7 +43,7 @@ static const Side foreign_sides[] = {
 };
 enum { NSIDES = sizeof sides / sizeof sides[0], NFOREIGN_SIDES = sizeof foreign_sides / sizeof foreign_sides[0] };
 
-/* A phrase: one word, or two that follow each other, and the bone that it votes for. where: 's' if it does so only in
+/* A phrase: one word, or two beside each other, and the bone that it votes for. where: 's' if it does so only in
    names that tell a side, 'c' only in names that do not, 0 in both. */
 typedef struct {
     const char *first, *second;
@@ -86,6 +86,7 @@ static const Phrase phrases[] = {
     {"back", NULL, 'c', PART_SPINE, 0.8},
     {"abdomen", NULL, 'c', PART_SPINE, 1},
     {"waist", NULL, 'c', PART_SPINE, 0.9},
+    {"lumbar", NULL, 'c', PART_SPINE, 0.9},
     {"torso", NULL, 'c', PART_CHEST, 0.6},
     {"chest", NULL, 'c', PART_CHEST, 1},
     {"thorax", NULL, 'c', PART_CHEST, 1},
@@ -120,6 +121,7 @@ static const Phrase phrases[] = {
     {"leg", NULL, 's', PART_THIGH, 0.5},
     {"leg", NULL, 's', PART_SHIN, 0.8},
     {"shin", NULL, 's', PART_SHIN, 1},
+    {"shank", NULL, 's', PART_SHIN, 1},
     {"calf", NULL, 's', PART_SHIN, 1},
     {"tibia", NULL, 's', PART_SHIN, 1},
     {"knee", NULL, 's', PART_SHIN, 0.95},
@@ -234,6 +236,20 @@ static double doubt(const Words *w) {
     return factor;
 }
 
+/* The word that goes with word i in a phrase of two: the next, or the one behind a side, as in UpperLeftArm. */
+static int partner(const Words *w, int i) {
+    int j = i + 1;
+    return j + 1 < w->count && side_of_word(w->word[j]) ? j + 1 : j;
+}
+
+/* Do words i and j make up the phrase? Two words do in either order: UpperArm, arm_upper. */
+static bool says(const Words *w, int i, int j, const Phrase *ph) {
+    if (!ph->second) return is(w->word[i], ph->first);
+    if (j >= w->count) return false;
+    return (is(w->word[i], ph->first) && is(w->word[j], ph->second)) ||
+           (is(w->word[i], ph->second) && is(w->word[j], ph->first));
+}
+
 NameHint name_hint(const char *name) {
     Words w = split(name);
     NameHint hint = {.side = side_of(&w)};
@@ -246,10 +262,8 @@ NameHint name_hint(const char *name) {
             if ((ph->second != NULL) != (pass == 2)) continue;
             if ((ph->where == 's' && hint.side == 0) || (ph->where == 'c' && hint.side != 0)) continue;
             for (int i = 0; i < w.count; i++) {
-                int j = i + 1; /* UpperLeftArm: a side may stand between the two */
-                if (pass == 2 && j + 1 < w.count && side_of_word(w.word[j])) j++;
-                if (used[i] || !is(w.word[i], ph->first)) continue;
-                if (pass == 2 && (j >= w.count || !is(w.word[j], ph->second))) continue;
+                int j = partner(&w, i);
+                if (used[i] || !says(&w, i, j, ph)) continue;
                 taken[i] = true;
                 if (pass == 2) taken[j] = true;
                 if (ph->weight * factor > hint.weight[ph->part]) hint.weight[ph->part] = ph->weight * factor;
