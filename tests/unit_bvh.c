@@ -230,11 +230,14 @@ static void test_positions(void) {
     static const char deltas[] = LONE("3 Xposition Yposition Zposition") "0.1 0 -0.1\n";
     static const char height[] = LONE("1 Yposition") "2.05\n";
     static const char sitting[] = MOVED("0 94 0") ONE "3 40 2\n";
+    static const char bones[] = "HIERARCHY\nROOT a\n{\nOFFSET 0 1 0\nCHANNELS 1 Yposition\nJOINT b\n{\nOFFSET 0 9 0\n"
+                                "CHANNELS 1 Yposition\n}\n}\n" ONE "90 0\n";
     static const char zero[] = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Xposition\n}\n" ONE "0\n";
     test_position("they lie round the OFFSET", around, POSITION_GUESS, false);
     test_position("they lie round zero", deltas, POSITION_GUESS, true);
     test_position("only a height", height, POSITION_GUESS, false);
     test_position("somebody sits", sitting, POSITION_GUESS, false);
+    test_position("a bone whose length they do not tell", bones, POSITION_GUESS, true);
     test_position("OFFSET is zero", zero, POSITION_GUESS, false);
     test_position("forced", around, POSITION_ADD, true);
     test_position("forced", deltas, POSITION_REPLACE, false);

@@ -2,9 +2,10 @@
 
    Do they replace the OFFSET or add to it? Both occur, and no file says which. If they replace it, a joint's values lie
    round its OFFSET; if they add, round zero. Each position channel of a joint with an OFFSET is a witness, the more
-   trusted the less its values vary: while somebody walks away along x and z, the height of the hips still tells. Nearly
-   all files mean to replace, so adding must fit twice as well: the hips of somebody who sits are below the OFFSET's
-   height in either case.
+   trusted the less its values vary: while somebody walks away along x and z, the height of the hips still tells. Joints
+   below a root tell more than roots, since bones keep their length: where they tell anything, roots are not asked.
+   Nearly all files mean to replace, so adding must fit twice as well: the hips of somebody who sits are below the
+   OFFSET's height in either case.
 
    Do they tell the pose alone? In files of bare points, as pose estimators write them, no joint but a root turns in any
    frame. Where such files leave OFFSETs zero, the first frame has to stand for them. */
@@ -18,6 +19,7 @@ enum { SAMPLES_MAX = 64, WITNESSES_MAX = 256 };
 /* One position channel of a joint with an OFFSET that is not zero. */
 typedef struct {
     int column;
+    bool root;
     double offset, size; /* this coordinate of the OFFSET, and its length */
     double *value;       /* SAMPLES_MAX */
 } Witness;
@@ -45,7 +47,7 @@ bool positions_start(const Skeleton *s, Arena *arena, Positions **out, Error *e)
         for (int k = 0; k < j->nchannels && p->nwitnesses < WITNESSES_MAX; k++) {
             if (j->channel[k] > CHANNEL_TZ) continue;
             Witness *w = &p->witness[p->nwitnesses++];
-            *w = (Witness){j->first_channel + k, coordinate(j->offset, j->channel[k]), size, NULL};
+            *w = (Witness){j->first_channel + k, j->parent < 0, coordinate(j->offset, j->channel[k]), size, NULL};
             if (!(w->value = ARENA_NEW(arena, double, SAMPLES_MAX, e))) return false;
         }
     }
@@ -88,16 +90,18 @@ static int ascending(const void *a, const void *b) {
 bool positions_are_deltas(Positions *p) {
     static const double SPREAD_LEAST = 0.05; /* of the OFFSET's length: values that do not vary at all */
     static const double FAR = 10, BETTER = 2; /* most that a witness counts; how much better adding must fit */
-    double replace = 0, add = 0; /* sums of the distance from what each of the two expects, in spreads */
+    /* Of roots [1] and of other joints [0]: sums of the distance from what each of the two expects, in spreads. */
+    double replace[2] = {0, 0}, add[2] = {0, 0};
     for (int i = 0; i < p->nwitnesses && p->nsamples > 0; i++) {
         Witness *w = &p->witness[i];
         qsort(w->value, (size_t)p->nsamples, sizeof *w->value, ascending);
         double median = w->value[p->nsamples / 2];
         double spread = w->value[p->nsamples * 9 / 10] - w->value[p->nsamples / 10] + SPREAD_LEAST * w->size;
-        replace += fmin(fabs(median - w->offset) / spread, FAR);
-        add += fmin(fabs(median) / spread, FAR);
+        replace[w->root] += fmin(fabs(median - w->offset) / spread, FAR);
+        add[w->root] += fmin(fabs(median) / spread, FAR);
     }
-    return BETTER * add < replace;
+    int asked = add[0] == replace[0];
+    return BETTER * add[asked] < replace[asked];
 }
 
 static int positions_of(const Joint *j) {
