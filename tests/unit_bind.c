@@ -177,8 +177,8 @@ static void test_pose_in_front(void) {
     close_both(&told, &found);
 }
 
-/* Writes a motion of a rig again, its head turned about its own x by so many degrees in all frames. */
-static void write_turned_head(Rig *r, const char *from, const char *path, double degrees) {
+/* Writes a motion of a rig again, its head turned about an axis by so many degrees in all frames. */
+static void write_turned_head(Rig *r, const char *from, const char *path, ChannelKind axis, double degrees) {
     FILE *in = fopen(from, "r"), *out = fopen(path, "w");
     char line[4096];
     do fputs(fgets(line, sizeof line, in), out);
@@ -187,7 +187,7 @@ static void write_turned_head(Rig *r, const char *from, const char *path, double
     for (int frame = 0; frame < r->motion.nframes; frame++) {
         if (!motion_row(r->reader, frame, r->row, &r->e)) break;
         for (int c = 0; c < head->nchannels; c++)
-            if (head->channel[c] == CHANNEL_RX) r->row[head->first_channel + c] += degrees;
+            if (head->channel[c] == axis) r->row[head->first_channel + c] += degrees;
         for (int c = 0; c < r->motion.skeleton.nchannels; c++) fprintf(out, "%.9g ", r->row[c]);
         fprintf(out, "\n");
     }
@@ -200,9 +200,13 @@ static void test_look_aside(void) {
     const char *ahead = "tests/data/figure/lafan1.bvh", *path = in_folder("aside.bvh");
     Rig told, found;
     if (!OK(rig_open(&told, ahead, NULL), "lafan1 opens")) return;
-    write_turned_head(&told, ahead, path, 40);
+    write_turned_head(&told, ahead, path, CHANNEL_RX, 40);
     OK(rig_open(&found, path, NULL), "and with its head turned");
     NEAR(turn_difference(&told, &found, ROLE_HEAD), 40, 2, "a head that is turned aside in all frames is aside");
+    rig_close(&found);
+    write_turned_head(&told, ahead, path, CHANNEL_RZ, 80);
+    OK(rig_open(&found, path, NULL), "and with its head's axes tipped over");
+    NEAR(turn_difference(&told, &found, ROLE_HEAD), 0, 12, "nobody looks at the own feet all the time");
     close_both(&told, &found);
 }
 

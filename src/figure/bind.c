@@ -190,11 +190,13 @@ static bool neck_is_stretched(const Binder *b) {
    zero pose stretches the neck, the axes of head and chest are parallel in it, which is better evidence: then of the
    mean over the frames only the nod is used, up to NOD radians, unless the two differ widely. */
 static Mat3 head_from_chest(const Binder *b) {
-    static const double WIDELY = 0.5, NOD = 0.3; /* cosine between left by one and by the other; radians */
+    static const double WIDELY = 0.5, NOD = 0.3; /* cosine between left or up by one and by the other; radians */
     Frames all = {.n = b->sample->count};
     for (int i = 0; i < all.n; i++) all.frame[i] = i;
     Mat3 level = bind_like(b, &all, b->f->roles.joint[ROLE_HEAD], ROLE_CHEST), chest = b->f->bind[ROLE_CHEST].r;
-    if (!neck_is_stretched(b) || vec_dot(mat_column(chest, 0), mat_column(level, 0)) < WIDELY) return level;
+    if (!neck_is_stretched(b)) return level;
+    for (int axis = 0; axis < 2; axis++)
+        if (vec_dot(mat_column(chest, axis), mat_column(level, axis)) < WIDELY) return level;
     return lean_within(lean_within(chest, mat_column(level, 1), 0), mat_column(chest, 1), NOD);
 }
 
