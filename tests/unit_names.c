@@ -13,7 +13,8 @@ static void test_names(void) {
         {"UpperLeftArm", 1, PART_UPPER_ARM}, {"L_lowArm_jnt", 1, PART_FOREARM}, {"mElbowRight", -1, PART_FOREARM},
         {"CC_Base_L_Calf", 1, PART_SHIN}, {"mixamorig:RightToeBase", -1, PART_TOE}, {"l_up_leg", 1, PART_THIGH},
         {"LUARM", 1, PART_UPPER_ARM}, {"RFARM", -1, PART_FOREARM}, {"RtForearm", -1, PART_FOREARM},
-        {"arm_lower_L", 1, PART_FOREARM}, {"LegUpR", -1, PART_THIGH}, {"r_shank", -1, PART_SHIN},
+        {"arm_lower_L", 1, PART_FOREARM}, {"LegUpR", -1, PART_THIGH}, {"rgt_shank_jnt", -1, PART_SHIN},
+        {"UpperArm_L_low", 1, PART_UPPER_ARM}, {"lft_leg_lower", 1, PART_SHIN},
         {"lowerneck", 0, PART_NECK}, {"Head_M", 0, PART_HEAD},
     };
     for (size_t i = 0; i < sizeof hints / sizeof hints[0]; i++) {

@@ -31,9 +31,10 @@ static const char *const strangers[] = {
 /* Left and right: in Latin letters as words of a name, in others wherever they stand. */
 typedef struct { const char *word; int side; } Side;
 static const Side sides[] = {
-    {"l", 1}, {"left", 1}, {"lt", 1}, {"links", 1}, {"gauche", 1}, {"izq", 1}, {"izquierda", 1}, {"izquierdo", 1},
-    {"sx", 1}, {"sinistra", 1}, {"sinistro", 1}, {"r", -1}, {"right", -1}, {"rt", -1}, {"rechts", -1}, {"droite", -1},
-    {"droit", -1}, {"der", -1}, {"derecha", -1}, {"derecho", -1}, {"dx", -1}, {"destra", -1}, {"destro", -1},
+    {"l", 1}, {"left", 1}, {"lt", 1}, {"lft", 1}, {"links", 1}, {"gauche", 1}, {"izq", 1}, {"izquierda", 1},
+    {"izquierdo", 1}, {"sx", 1}, {"sinistra", 1}, {"sinistro", 1},
+    {"r", -1}, {"right", -1}, {"rt", -1}, {"rgt", -1}, {"rechts", -1}, {"droite", -1}, {"droit", -1}, {"der", -1},
+    {"derecha", -1}, {"derecho", -1}, {"dx", -1}, {"destra", -1}, {"destro", -1},
 };
 static const Side foreign_sides[] = {
     {"\xe5\xb7\xa6", 1}, {"\xe5\x8f\xb3", -1},                                             /* Japanese, Chinese */
@@ -236,18 +237,31 @@ static double doubt(const Words *w) {
     return factor;
 }
 
-/* The word that goes with word i in a phrase of two: the next, or the one behind a side, as in UpperLeftArm. */
+/* The word that goes with word i in a phrase of two: the next, or the one behind a side, as in UpperLeftArm. May be one
+   behind the last. */
 static int partner(const Words *w, int i) {
     int j = i + 1;
     return j + 1 < w->count && side_of_word(w->word[j]) ? j + 1 : j;
 }
 
-/* Do words i and j make up the phrase? Two words do in either order: UpperArm, arm_upper. */
+/* Do words i and j make up the phrase, in either order: UpperArm, arm_upper? j = i: does word i alone? */
 static bool says(const Words *w, int i, int j, const Phrase *ph) {
-    if (!ph->second) return is(w->word[i], ph->first);
-    if (j >= w->count) return false;
-    return (is(w->word[i], ph->first) && is(w->word[j], ph->second)) ||
-           (is(w->word[i], ph->second) && is(w->word[j], ph->first));
+    const char *a = w->word[i], *b = w->word[j];
+    if (i == j || !ph->second) return i == j && !ph->second && is(a, ph->first);
+    return (is(a, ph->first) && is(b, ph->second)) || (is(b, ph->first) && is(a, ph->second));
+}
+
+/* Counts the votes of all phrases that words i and j make up. Returns whether there is one. */
+static bool vote(const Words *w, int i, int j, double factor, NameHint *hint) {
+    bool any = false;
+    for (int p = 0; p < NPHRASES; p++) {
+        const Phrase *ph = &phrases[p];
+        if ((ph->where == 's' && hint->side == 0) || (ph->where == 'c' && hint->side != 0)) continue;
+        if (!says(w, i, j, ph)) continue;
+        any = true;
+        if (ph->weight * factor > hint->weight[ph->part]) hint->weight[ph->part] = ph->weight * factor;
+    }
+    return any;
 }
 
 NameHint name_hint(const char *name) {
@@ -255,22 +269,12 @@ NameHint name_hint(const char *name) {
     NameHint hint = {.side = side_of(&w)};
     double factor = doubt(&w);
     bool used[WORDS_MAX] = {false};
-    for (int pass = 2; pass >= 1; pass--) {
-        bool taken[WORDS_MAX] = {false};
-        for (int p = 0; p < NPHRASES; p++) {
-            const Phrase *ph = &phrases[p];
-            if ((ph->second != NULL) != (pass == 2)) continue;
-            if ((ph->where == 's' && hint.side == 0) || (ph->where == 'c' && hint.side != 0)) continue;
-            for (int i = 0; i < w.count; i++) {
-                int j = partner(&w, i);
-                if (used[i] || !says(&w, i, j, ph)) continue;
-                taken[i] = true;
-                if (pass == 2) taken[j] = true;
-                if (ph->weight * factor > hint.weight[ph->part]) hint.weight[ph->part] = ph->weight * factor;
-            }
-        }
-        for (int i = 0; i < WORDS_MAX; i++) used[i] |= taken[i];
+    for (int i = 0; i < w.count; i++) {
+        int j = partner(&w, i);
+        if (j < w.count && !used[i] && vote(&w, i, j, factor, &hint)) used[i] = used[j] = true;
     }
+    for (int i = 0; i < w.count; i++)
+        if (!used[i]) vote(&w, i, i, factor, &hint);
     hint.stranger = factor < 0.1;
     for (int part = 0; part < PART_COUNT; part++) hint.stranger = hint.stranger && hint.weight[part] == 0;
     return hint;
