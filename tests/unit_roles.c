@@ -317,8 +317,25 @@ static const char *put_twins(void) {
     return in_folder("twins.bvh");
 }
 
-static void test_twins(void) {
+/* A tree that hangs from the head, by way of the chest. */
+static const char *put_hanging(void) {
+    static const char *const leg[] = {"Thigh", "Shin", "Foot"}, *const arm[] = {"UpperArm", "Forearm", "Hand"};
+    FILE *f = fopen(in_folder("hanging.bvh"), "w");
+    if (!f) return "";
+    fputs("HIERARCHY\nROOT Head {\nOFFSET 0 0 0\nCHANNELS 0\nJOINT Chest {\nOFFSET 0 -20 0\nCHANNELS 0\n", f);
+    for (int k = 0; k < 2; k++) put_limb(f, arm, k ? "Right" : "Left", "", k ? -17 : 17, k ? -27 : 27, 0, 1);
+    fputs("JOINT Hips {\nOFFSET 0 -40 0\nCHANNELS 0\n", f);
+    for (int k = 0; k < 2; k++) put_limb(f, leg, k ? "Right" : "Left", "", k ? -9 : 9, 0, -40, 1);
+    fputs("}\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0 0 0 0 0 0 0 0 0 0\n", f);
+    fclose(f);
+    return in_folder("hanging.bvh");
+}
+
+static void test_made(void) {
     Rig r;
+    OK(rig_roles(&r, put_hanging(), NULL) && strcmp(rig_joint(&r, ROLE_HEAD), "Head") == 0 &&
+           strcmp(rig_joint(&r, ROLE_PELVIS), "Hips") == 0, "a tree that hangs from the head");
+    rig_close(&r);
     OK(rig_roles(&r, put_twins(), NULL) && strcmp(rig_joint(&r, ROLE_LEFT_THIGH), "DEF-thigh.L") == 0 &&
            strcmp(rig_joint(&r, ROLE_RIGHT_FOREARM), "DEF-forearm.R") == 0,
        "of two limbs alike, the one that moves");
@@ -456,7 +473,7 @@ int main(void) {
     test_oddities();
     test_two_roots();
     test_called();
-    test_twins();
+    test_made();
     test_headless();
     test_role_files();
     mirrors_are_their_own_mirror();

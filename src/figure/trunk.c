@@ -149,6 +149,13 @@ static int find_head_branch(const Tree *t, const Human *h, int pelvis) {
     return first;
 }
 
+/* A tree may hang from the head, as where a headset is tracked. -1: this one does not. */
+static int head_above(const Tree *t, int chest) {
+    int j = chest;
+    while (j >= 0 && t->hint[j].weight[PART_HEAD] <= NAMED) j = t->skeleton->joint[j].parent;
+    return j;
+}
+
 /* --- all of it --- */
 
 static double find_stature(const Tree *t, const Limbs *limbs) {
@@ -177,6 +184,8 @@ void trunk_find(const Tree *t, const Limbs *limbs, Roles *out) {
         int head = named >= 0 ? tree_past_nodes(t, named, PART_HEAD) : head_by_shape(t, &h, first);
         if (neck < 0 && first != head) neck = named_neck(t, first, head);
         out->joint[ROLE_HEAD] = head;
+    } else {
+        out->joint[ROLE_HEAD] = head_above(t, chest);
     }
     out->joint[ROLE_NECK] = neck;
 }
