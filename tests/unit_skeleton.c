@@ -58,7 +58,8 @@ static void test_zxy(void) {
                     {-cx * sy, sx, cx * cy}}};
     NEAR(worst(pose_one(joint("a", -1, vec(0, 0, 0), 3, zxy, 0), row, false).r, wanted), 0, 1e-15, "ZXY on paper");
     static const ChannelKind scaled[] = {CHANNEL_SX, CHANNEL_RZ, CHANNEL_SY, CHANNEL_RX, CHANNEL_RY};
-    const double quarter[3] = {90, 90, 0}, among[5] = {2, 90, 3, 90, 0}; /* x goes to x, then to y; y goes to z and stays */
+    const double quarter[3] = {90, 90, 0}; /* x goes to x, then to y; y goes to z and stays */
+    const double among[5] = {2, 90, 3, 90, 0};
     Mat3 r = pose_one(joint("a", -1, vec(0, 0, 0), 3, zxy, 0), quarter, false).r;
     NEAR(vec_dist(mat_apply(r, vec(1, 0, 0)), vec(0, 1, 0)), 0, 1e-15, "two quarter turns take x to y");
     NEAR(vec_dist(mat_apply(r, vec(0, 1, 0)), vec(0, 0, 1)), 0, 1e-15, "and y to z");

@@ -229,6 +229,47 @@ static void set_certain(const Tree *t, const LimbPair *legs, const LimbPair *arm
     }
 }
 
+/* Do all joints hang on a root? Then the tree tells nothing. */
+static bool is_flat(const Tree *t) {
+    for (int j = 0; j < t->skeleton->njoints; j++) {
+        int parent = t->skeleton->joint[j].parent;
+        if (!t->skeleton->joint[j].is_end && parent >= 0 && t->skeleton->joint[parent].parent >= 0) return false;
+    }
+    return true;
+}
+
+static bool plays_any(const Roles *roles, int joint) {
+    for (int r = 0; r < ROLE_COUNT; r++)
+        if (roles->joint[r] == joint) return true;
+    return false;
+}
+
+static Part part_of(Role role) {
+    if (role < ROLE_LEFT_CLAVICLE) return (Part)(PART_PELVIS + role);
+    if (role < ROLE_LEFT_THIGH) return PART_CLAVICLE + (role - ROLE_LEFT_CLAVICLE) % (PART_THIGH - PART_CLAVICLE);
+    return PART_THIGH + (role - ROLE_LEFT_THIGH) % (PART_COUNT - PART_THIGH);
+}
+
+/* For each role the joint whose name fits best. From the last to the first: a shoulder is an upper arm before it is a
+   clavicle. Without a chest the last joint of the spine is it. */
+static void set_by_names(const Tree *t, Roles *out) {
+    static const double NAMED = 0.5;
+    int last_spine = -1;
+    for (int j = 0; j < t->skeleton->njoints; j++)
+        if (t->hint[j].weight[PART_SPINE] > NAMED) last_spine = j;
+    for (int r = ROLE_COUNT - 1; r >= 0; r--) {
+        int limb = role_limb((Role)r), side = limb == 0 ? 0 : limb % 2 ? 1 : -1;
+        double most = NAMED;
+        for (int j = 0; j < t->skeleton->njoints; j++) {
+            double weight = t->hint[j].weight[part_of((Role)r)];
+            if (t->hint[j].side != side || weight <= most || plays_any(out, j)) continue;
+            most = weight;
+            out->joint[r] = j;
+        }
+        if (r == ROLE_CHEST && out->joint[r] < 0) out->joint[r] = last_spine;
+    }
+}
+
 void human_find(const Tree *t, Notes *notes, Roles *out) {
     LimbPair legs[PAIRS], arms[PAIRS];
     int nlegs = limbs_find(t, LIMB_LEG, PAIRS, legs), narms = limbs_find(t, LIMB_ARM, PAIRS, arms);
@@ -240,6 +281,8 @@ void human_find(const Tree *t, Notes *notes, Roles *out) {
     if (best.limbs.legs && possible(&best)) {
         set_limbs(t, &best.limbs, left_leg(t, &best.limbs, notes), same_side(t, &best.limbs), out);
         trunk_find(t, &best.limbs, out);
+    } else if (is_flat(t)) {
+        set_by_names(t, out);
     } else {
         set_certain(t, nlegs > 0 ? &legs[0] : NULL, narms > 0 ? &arms[0] : NULL, out);
     }

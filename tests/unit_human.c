@@ -1,0 +1,101 @@
+/* The human in trees of odd shapes, made here: limbs that are there twice, a tree that hangs from the head, one that is
+   flat. */
+#include "figure/human.h"
+#include "folder.h"
+#include "rig.h"
+#include "tap.h"
+
+/* A limb of three bones whose names stand between `before` and `after`. It begins `aside` of its parent; each bone goes
+   x, y on, and turns by so many channels. */
+static void put_limb(FILE *f, const char *const bones[3], const char *before, const char *after, double aside, double x,
+                     double y, int channels) {
+    for (int b = 0; b < 3; b++)
+        fprintf(f, "JOINT %s%s%s {\nOFFSET %g %g 0\nCHANNELS %d %s\n", before, bones[b], after, b ? x : aside,
+                b ? y : 0, channels, channels ? "Zrotation" : "");
+    fputs("End Site { OFFSET 0 0 9 }\n}\n}\n}\n", f);
+}
+
+/* A human whose limbs are there twice: with bones that keep still, for the animator, before those that move. */
+static const char *put_twins(void) {
+    static const char *const leg[] = {"thigh", "shin", "foot"}, *const arm[] = {"upper_arm", "forearm", "hand"};
+    FILE *f = fopen(in_folder("twins.bvh"), "w");
+    if (!f) return "";
+    fputs("HIERARCHY\nROOT hips {\nOFFSET 0 0 0\nCHANNELS 0\n", f);
+    for (int k = 0; k < 4; k++)
+        put_limb(f, leg, k % 2 ? "DEF-" : "", k < 2 ? ".L" : ".R", k < 2 ? 9 : -9, 0, -40, k % 2);
+    fputs("JOINT chest {\nOFFSET 0 40 0\nCHANNELS 0\n", f);
+    for (int k = 0; k < 4; k++)
+        put_limb(f, arm, k % 2 ? "DEF-" : "", k < 2 ? ".L" : ".R", k < 2 ? 17 : -17, k < 2 ? 27 : -27, 0, k % 2);
+    fputs("JOINT head {\nOFFSET 0 20 0\nCHANNELS 0\nEnd Site { OFFSET 0 20 0 }\n}\n}\n}\n", f);
+    fputs("MOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0 0 0 0 0 0 0 0 0 0\n9 9 9 9 9 9 9 9 9 9 9 9\n", f);
+    fclose(f);
+    return in_folder("twins.bvh");
+}
+
+/* A tree that hangs from the head, by way of the chest. */
+static const char *put_hanging(void) {
+    static const char *const leg[] = {"Thigh", "Shin", "Foot"}, *const arm[] = {"UpperArm", "Forearm", "Hand"};
+    FILE *f = fopen(in_folder("hanging.bvh"), "w");
+    if (!f) return "";
+    fputs("HIERARCHY\nROOT Head {\nOFFSET 0 0 0\nCHANNELS 0\nJOINT Chest {\nOFFSET 0 -20 0\nCHANNELS 0\n", f);
+    for (int k = 0; k < 2; k++) put_limb(f, arm, k ? "Right" : "Left", "", k ? -17 : 17, k ? -27 : 27, 0, 1);
+    fputs("JOINT Hips {\nOFFSET 0 -40 0\nCHANNELS 0\n", f);
+    for (int k = 0; k < 2; k++) put_limb(f, leg, k ? "Right" : "Left", "", k ? -9 : 9, 0, -40, 1);
+    fputs("}\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0 0 0 0 0 0 0 0 0 0\n", f);
+    fclose(f);
+    return in_folder("hanging.bvh");
+}
+
+/* Joints that all hang on one: only their names tell what they are. */
+static const char *put_flat(const char *const names[], int n) {
+    FILE *f = fopen(in_folder("flat.bvh"), "w");
+    if (!f) return "";
+    fputs("HIERARCHY\nROOT World {\nOFFSET 0 0 0\nCHANNELS 1 Xposition\n", f);
+    for (int i = 0; i < n; i++) fprintf(f, "JOINT %s { OFFSET 0 0 0 }\n", names[i]);
+    fputs("}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0\n", f);
+    fclose(f);
+    return in_folder("flat.bvh");
+}
+
+static void test_flat(void) {
+    /* In the order of Role. */
+    static const char *const names[ROLE_COUNT] = {
+        "Hips", "Spine", "Spine1", "Neck", "Head", "LeftCollar", "LeftShoulder", "LeftElbow", "LeftWrist",
+        "RightCollar", "RightShoulder", "RightElbow", "RightWrist", "LeftUpLeg", "LeftLeg", "LeftFoot", "LeftToe",
+        "RightUpLeg", "RightLeg", "RightFoot", "RightToe",
+    };
+    Rig r;
+    bool good = rig_roles(&r, put_flat(names, ROLE_COUNT), NULL);
+    int wrong = 0;
+    for (Role role = 0; good && role < ROLE_COUNT; role++) wrong += strcmp(rig_joint(&r, role), names[role]) != 0;
+    OK(good && wrong == 0, "names tell the roles of joints that all hang on one: %d wrong", wrong);
+    rig_close(&r);
+    OK(!rig_roles(&r, put_flat(names, ROLE_RIGHT_THIGH), NULL) && strstr(r.e.text, "roles: right_thigh, right_shin"),
+       "and which are missing");
+    rig_close(&r);
+}
+
+static void test_hanging(void) {
+    Rig r;
+    OK(rig_roles(&r, put_hanging(), NULL) && strcmp(rig_joint(&r, ROLE_HEAD), "Head") == 0 &&
+           strcmp(rig_joint(&r, ROLE_PELVIS), "Hips") == 0,
+       "a tree that hangs from the head");
+    rig_close(&r);
+}
+
+static void test_twins(void) {
+    Rig r;
+    OK(rig_roles(&r, put_twins(), NULL) && strcmp(rig_joint(&r, ROLE_LEFT_THIGH), "DEF-thigh.L") == 0 &&
+           strcmp(rig_joint(&r, ROLE_RIGHT_FOREARM), "DEF-forearm.R") == 0,
+       "of two limbs alike, the one that moves");
+    rig_close(&r);
+}
+
+int main(void) {
+    if (!folder_make()) return 1;
+    test_hanging();
+    test_twins();
+    test_flat();
+    folder_remove();
+    return tap_done();
+}
