@@ -129,7 +129,7 @@ static void half_the_size(const char *garment) {
             off = fmax(off, vec_dist(mesh[0].position[v], mesh[1].position[v]));
         moved = fmax(moved, stats[0].displacement);
     }
-    OK(moved > 0.03 && off < 1e-5, "%s, half as large: moved by up to %.0f mm, %.2g m off", garment, 1000 * moved, off);
+    OK(moved > 0.03 && off < 1e-9, "%s, half as large: moved by up to %.0f mm, %.2g m off", garment, 1000 * moved, off);
     for (int i = 0; i < 2; i++) arena_free(&scene[i].arena);
 }
 

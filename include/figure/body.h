@@ -60,6 +60,7 @@ typedef struct {
     Section section[SECTIONS_MAX];       /* metres; `at` in metres along y, caps included */
     double cubic[SECTIONS_MAX][4][SHAPE_VALUES]; /* from section i on: sum of cubic[i][k] (y - at)^k */
     double low, high;       /* y range, with the end caps */
+    double pole;            /* private: see BODY_POLE; metres */
     double reach;           /* no point of the surface is farther from the y axis */
     double buckets_per_metre;            /* private: finds the section of a y without a search */
     unsigned char bucket[BODY_BUCKETS];
@@ -131,9 +132,9 @@ static inline int body_interval(const BodyPart *part, double y) {
     while (i > 0 && part->section[i].at > y) i--; /* a rounding beside a bucket's edge */
     return i;
 }
-/* Private: at the poles (the ends of the caps) sections have no size, so none is taken nearer to them than BODY_POLE
-   metres. Where the unit normal's y is larger than BODY_LEANING, a second tangent plane is taken. */
-#define BODY_POLE 1e-6
+/* Private: at the poles (the ends of the caps) sections have no size, so none is taken nearer to them than this share of
+   the part's length. Where the unit normal's y is larger than BODY_LEANING, a second tangent plane is taken. */
+#define BODY_POLE 4e-6
 #define BODY_LEANING 0.2
 
 /* The section at height y of the part frame, clamped to the part's range. */

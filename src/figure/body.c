@@ -91,6 +91,7 @@ void body_part_close(BodyPart *part, const double cap[2]) {
     int last = part->nsections - 1;
     part->low = part->section[0].at;
     part->high = part->section[last].at;
+    part->pole = BODY_POLE * (part->high - part->low);
     part->reach = reach_of(part);
     part->buckets_per_metre = BODY_BUCKETS / (part->high - part->low);
     for (int b = 0, i = 0; b < BODY_BUCKETS; b++) {
@@ -134,7 +135,7 @@ static inline int interval_again(const BodyPart *part, double y, int last) {
    the tangent plane there, and the plane's unit normal. For p == at the sign is that of f - 1, so it is exact.
    *interval: the interval to try first (-1: none); becomes the one of `at`. */
 static inline double before_plane(const BodyPart *part, Vec3 at, Vec3 p, int *interval, Vec3 *normal) {
-    double v[SHAPE_VALUES], d[SHAPE_VALUES], y = clamp(at.y, part->low + BODY_POLE, part->high - BODY_POLE);
+    double v[SHAPE_VALUES], d[SHAPE_VALUES], y = clamp(at.y, part->low + part->pole, part->high - part->pole);
     *interval = *interval < 0 ? body_interval(part, y) : interval_again(part, y, *interval);
     shape_in(part, *interval, y, v, d);
     double dx = at.x - v[0], dz = at.z - v[1];

@@ -101,7 +101,7 @@ ALWAYS void shapes_at(const BodyPart *part, const double y[LANES], double v[SHAP
 ALWAYS void before_planes(const BodyPart *part, const Lanes *at, const Lanes *p, double distance[LANES], Lanes *n) {
     Lanes s;
     double v[SHAPE_VALUES][LANES], d[SHAPE_VALUES][LANES];
-    double low = part->low + BODY_POLE, high = part->high - BODY_POLE;
+    double low = part->low + part->pole, high = part->high - part->pole;
     for (int i = 0; i < LANES; i++) {
         double y = at->y[i] < low ? low : at->y[i];
         s.y[i] = y > high ? high : y;
