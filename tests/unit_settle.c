@@ -87,7 +87,7 @@ static void gives_the_rest(const char *name, double share) {
     for (int v = 0; v < c->sheet.nvertices; v++) {
         int place = c->sheet.place[v];
         Vec3 x = vec_add(c->push.global[v], field_at(field, field_levels(field), place));
-        x = vec_add(x, vec_add(field->offset.at[place], field->dent.at[place]));
+        x = vec_add(x, field_alone(field, place));
         elsewhere += vec_dist(c->push.global[v], x) < field->cap && vec_dist(x, c->push.point[v]) > 1e-9;
     }
     OK(elsewhere == 0, "a vertex is where field, offset and dent say (%d are not)", elsewhere);
@@ -127,7 +127,7 @@ static void raises(void) {
 /* Everything that settling has moved since a mark. */
 static void goes_back(void) {
     static Pushed p;
-    static Vec3 point[1 << 14], offset[1 << 14], dent[1 << 14];
+    static Vec3 point[1 << 14], offset[1 << 14], dent[LIMBS][1 << 14];
     push(&p, "trousers", 0.3);
     Cloth *c = &p.cloth;
     FieldSpots *spots = &c->push.field.offset;
@@ -135,7 +135,8 @@ static void goes_back(void) {
         if (missing(&p, v) > 0) (void)settle_raise(&c->settler, &c->push, v, 0.005, 1);
     memcpy(point, c->push.point, (size_t)c->sheet.nvertices * sizeof *point);
     memcpy(offset, spots->at, (size_t)c->push.lattice->nplaces * sizeof *offset);
-    memcpy(dent, c->push.field.dent.at, (size_t)c->push.lattice->nplaces * sizeof *dent);
+    for (int limb = 0; limb < LIMBS; limb++)
+        memcpy(dent[limb], c->push.field.dent[limb].at, (size_t)c->push.lattice->nplaces * sizeof *dent[limb]);
     settle_mark(&c->settler, &c->push);
     settle_raised(&c->settler, &c->push, &p.result.capped);
     int moved = 0, others = 0;
@@ -147,9 +148,11 @@ static void goes_back(void) {
     OK(moved > 0 && others == 0, "%d of %d raised vertices move, and no others", moved, c->settler.nraised);
     OK(settle_restore(&c->settler, &c->push), "what was marked can be taken back");
     OK(memcmp(point, c->push.point, (size_t)c->sheet.nvertices * sizeof *point) == 0, "every vertex, to the bit");
-    OK(memcmp(offset, spots->at, (size_t)c->push.lattice->nplaces * sizeof *offset) == 0 &&
-           memcmp(dent, c->push.field.dent.at, (size_t)c->push.lattice->nplaces * sizeof *dent) == 0,
-       "every offset and every dent");
+    bool same = memcmp(offset, spots->at, (size_t)c->push.lattice->nplaces * sizeof *offset) == 0;
+    for (int limb = 0; limb < LIMBS; limb++)
+        same = same && memcmp(dent[limb], c->push.field.dent[limb].at,
+                              (size_t)c->push.lattice->nplaces * sizeof *dent[limb]) == 0;
+    OK(same, "every offset and every dent");
     for (int v = 0; v < c->sheet.nvertices; v++) (void)settle_raise(&c->settler, &c->push, v, 0.005, 1);
     settle_mark(&c->settler, &c->push);
     OK(c->settler.nraised <= MARKED_MOST || !settle_restore(&c->settler, &c->push),

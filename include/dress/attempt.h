@@ -53,7 +53,8 @@ Wrong attempt_test(Cloth *c, const BodyFrame *body, FrameStats *stats);
    w: what the last test has found. Returns what is wrong now. */
 Wrong attempt_raise_flat(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *stats);
 
-/* The number of vertices at which a part from outside shows because the body leaves no room for cloth there. */
+/* The number of vertices at which a part from outside shows because there is no room for cloth, or none that it could
+   reach. */
 int attempt_pinched(Cloth *c, const BodyFrame *body);
 
 #endif

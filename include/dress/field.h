@@ -5,6 +5,15 @@
 
 #include "dress/tessellate.h"
 
+/* What presses a garment in from outside, each in one direction: either arm, and all else. */
+typedef enum { LIMB_LEFT_ARM, LIMB_RIGHT_ARM, LIMB_OTHER, LIMBS } Limb;
+
+/* By how much each of them does at one place, metres. */
+typedef struct { Vec3 by[LIMBS]; } Dents;
+static inline Vec3 dents_sum(Dents d) {
+    return vec_add(vec_add(d.by[LIMB_LEFT_ARM], d.by[LIMB_RIGHT_ARM]), d.by[LIMB_OTHER]);
+}
+
 /* Vectors of single places. */
 typedef struct {
     Vec3 *at;                      /* per lattice place, metres; zero for most */
@@ -19,7 +28,8 @@ typedef struct {
     int start[LATTICE_LEVELS + 1]; /* level l has the level vertices start[l] to start[l + 1] - 1 */
     Vec3 *displacement;            /* per level vertex */
     FieldSpots offset;             /* of single vertices, out of own parts (dress/settle) */
-    FieldSpots dent;               /* of single vertices, pressed in by arms (dress/dent) */
+    FieldSpots dent[LIMBS];        /* of single vertices, pressed in by each limb (dress/dent), */
+    Vec3 way[LIMBS];               /* which presses in this direction: unit, or 0 if it never did */
     Mat3 pelvis;                   /* of the frame that the displacement belongs to */
 } Field;
 
@@ -33,6 +43,9 @@ typedef struct {
 
 MUST_CHECK bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e);
 void field_forget(Field *f);
+
+void field_set_dents(Field *f, int place, Dents dents);
+void field_drop_dents(Field *f);
 
 /* The displacement of one field into another on the same lattice. */
 void field_copy(const Field *from, Field *to);
@@ -71,6 +84,13 @@ void field_set_spot(FieldSpots *s, int place, Vec3 d);
 void field_drop_spots(FieldSpots *s);
 
 static inline bool field_is_zero(Vec3 d) { return d.x == 0 && d.y == 0 && d.z == 0; }
+
+/* What a place is moved beside that: its dents, their sum, and that with its offset. */
+static inline Dents field_dents(const Field *f, int place) {
+    return (Dents){{f->dent[0].at[place], f->dent[1].at[place], f->dent[2].at[place]}};
+}
+static inline Vec3 field_dent(const Field *f, int place) { return dents_sum(field_dents(f, place)); }
+static inline Vec3 field_alone(const Field *f, int place) { return vec_add(f->offset.at[place], field_dent(f, place)); }
 
 /* The outward unit normal of the displaced patches at a place, by their derivatives. */
 Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place);

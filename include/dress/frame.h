@@ -10,9 +10,11 @@
      clearance     The distance that a vertex has to keep from the body: PUSH_MARGIN, and more where it was raised,
                    because an edge or triangle beside it still crossed the body.
      sweep         One pass of the solver over the samples, the vertices near the body.
-     offset, dent  What a single vertex is moved beside the field: out of its own parts, or into the garment where an
-                   arm presses a hollow.
-     pinched       Between parts that overlap, where no cloth fits. */
+     limb          What presses on a garment from outside: an arm, or all other such parts together.
+     offset, dent  What a single vertex is moved beside the field: out of its own parts, or into the garment where a
+                   limb presses a hollow.
+     pinched       Between parts that overlap, where no cloth fits; or in a limb that presses so deep that cloth would
+                   have to go beyond its cap, or be stretched too far. */
 #ifndef DRESS_FRAME_H
 #define DRESS_FRAME_H
 
@@ -46,7 +48,7 @@ typedef struct {
     int residual_edges, residual_cloth, inside; /* against parts that the garment is worn over */
     double deepest;                   /* of the inside vertices */
     int limb_edges, limb_cloth, limb_inside;    /* against all others */
-    int pinched;                      /* vertices where the body leaves no room */
+    int pinched;                      /* vertices for which there is no room, or none that cloth could reach */
     bool capped;                      /* a cap (sweeps, rounds, displacement) was reached */
     bool restarted;                   /* carried state dropped: jump in the motion */
     double global_s, test_s, push_s, mesh_s; /* seconds */

@@ -9,9 +9,11 @@
 enum { MARKED_MOST = 1024 };
 
 typedef struct {
-    int *raised, nraised; /* mesh vertices that have to keep more clearance than all others */
+    int *raised, nraised; /* mesh vertices that have to keep more clearance than all others, or follow one of them */
+    bool *is_listed;      /* per vertex: is it one of these? */
     int nmarked;          /* how many of these settle_mark found; of more than MARKED_MOST nothing is remembered */
-    Vec3 was_offset[MARKED_MOST], was_dent[MARKED_MOST], was_point[MARKED_MOST];
+    Vec3 was_offset[MARKED_MOST], was_point[MARKED_MOST];
+    Dents were_dents[MARKED_MOST];
     Denter denter;
 } Settler;
 
@@ -23,7 +25,7 @@ void settle_start(Settler *s);
 /* Moves all vertices that are too near to a part, or those of them that were raised. *capped becomes true if that takes
    more than a single vertex may be moved. */
 void settle_all(Settler *s, Push *p, bool *capped);
-void settle_raised(const Settler *s, Push *p, bool *capped);
+void settle_raised(Settler *s, Push *p, bool *capped);
 
 /* Raises a vertex: adds `by` to its clearance, up to `most` more than others have (metres on 1.70 m). Returns false
    if it has as much already. */

@@ -132,8 +132,8 @@ static inline int body_interval(const BodyPart *part, double y) {
     while (i > 0 && part->section[i].at > y) i--; /* a rounding beside a bucket's edge */
     return i;
 }
-/* Private: at the poles (the ends of the caps) sections have no size, so none is taken nearer to them than this share of
-   the part's length. Where the unit normal's y is larger than BODY_LEANING, a second tangent plane is taken. */
+/* Private: at the poles (the ends of the caps) sections have no size, so none is taken nearer to them than this share
+   of the part's length. Where the unit normal's y is larger than BODY_LEANING, a second tangent plane is taken. */
 #define BODY_POLE 4e-6
 #define BODY_LEANING 0.2
 

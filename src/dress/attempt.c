@@ -160,6 +160,13 @@ static bool has_no_room(const BodyFrame *body, unsigned worn, int part, Vec3 at,
     return false;
 }
 
+/* Would cloth have to go beyond its cap there, or be stretched too far? */
+static bool is_out_of_reach(const Cloth *c, const TesterHit *hit) {
+    bool any = false;
+    for (int k = 0; k < hit->n; k++) any |= c->settler.denter.is_out_of_reach[hit->v[k]];
+    return any;
+}
+
 int attempt_pinched(Cloth *c, const BodyFrame *body) {
     int pinched = 0;
     bool *is_counted = c->flag;
@@ -170,7 +177,8 @@ int attempt_pinched(Cloth *c, const BodyFrame *body) {
         if (c->fit->collide & part_bit(body, hit->part)) continue;
         Vec3 x = vec_scale(tester_hit_point(hit, c->position), 1 / body->unit);
         unsigned worn = c->push.lattice->collide[c->sheet.place[v]];
-        if (is_counted[v] || !has_no_room(body, worn, hit->part, x, 2 * PUSH_MARGIN * c->push.field.scale)) continue;
+        bool is_tight = has_no_room(body, worn, hit->part, x, 2 * PUSH_MARGIN * c->push.field.scale);
+        if (is_counted[v] || !(is_tight || is_out_of_reach(c, hit))) continue;
         is_counted[v] = true;
         pinched++;
     }

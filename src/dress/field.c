@@ -42,23 +42,35 @@ bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e) {
     for (int l = 0; l < LATTICE_LEVELS; l++)
         f->start[l + 1] = f->start[l] + (l <= lattice->depth ? lattice->level[l].count : 0);
     f->displacement = ARENA_NEW(arena, Vec3, f->start[LATTICE_LEVELS], e);
-    return f->displacement && field_reserve_spots(&f->offset, lattice->nplaces, arena, e) &&
-           field_reserve_spots(&f->dent, lattice->nplaces, arena, e);
+    for (int limb = 0; limb < LIMBS; limb++)
+        if (!field_reserve_spots(&f->dent[limb], lattice->nplaces, arena, e)) return false;
+    return f->displacement && field_reserve_spots(&f->offset, lattice->nplaces, arena, e);
+}
+
+void field_set_dents(Field *f, int place, Dents dents) {
+    for (int limb = 0; limb < LIMBS; limb++) field_set_spot(&f->dent[limb], place, dents.by[limb]);
+}
+
+void field_drop_dents(Field *f) {
+    for (int limb = 0; limb < LIMBS; limb++) field_drop_spots(&f->dent[limb]);
 }
 
 void field_forget(Field *f) {
     memset(f->displacement, 0, (size_t)f->start[LATTICE_LEVELS] * sizeof *f->displacement);
     field_drop_spots(&f->offset);
-    field_drop_spots(&f->dent);
+    field_drop_dents(f);
 }
 
 void field_copy(const Field *from, Field *to) {
     field_drop_spots(&to->offset);
-    field_drop_spots(&to->dent);
+    field_drop_dents(to);
     to->pelvis = from->pelvis;
     memcpy(to->displacement, from->displacement, (size_t)from->start[LATTICE_LEVELS] * sizeof *to->displacement);
     copy_spots(&from->offset, &to->offset);
-    copy_spots(&from->dent, &to->dent);
+    for (int limb = 0; limb < LIMBS; limb++) {
+        copy_spots(&from->dent[limb], &to->dent[limb]);
+        to->way[limb] = from->way[limb];
+    }
 }
 
 Carry field_carry_to(const Field *f, const BodyFrame *body, double dt) {
@@ -96,7 +108,7 @@ void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leave
         for (int v = 0; v < l->level[level].count; v++)
             if (field_carry_one(&f->displacement[f->start[level] + v], &c)) leaves_open(leaves, level, v);
     carry_spots(&f->offset, &c);
-    field_drop_spots(&f->dent);
+    field_drop_dents(f);
     f->pelvis = body->pose.bone[ROLE_PELVIS].r;
 }
 

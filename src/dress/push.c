@@ -125,8 +125,7 @@ static void find_levels(Push *p) {
 static Vec3 displaced(const Push *p, int vertex, Vec3 d) {
     bool capped = false;
     int place = p->sheet->place[vertex];
-    Vec3 own = vec_add(p->field.offset.at[place], p->field.dent.at[place]);
-    return vec_add(p->global[vertex], field_limit(vec_add(d, own), p->field.cap, &capped));
+    return vec_add(p->global[vertex], field_limit(vec_add(d, field_alone(&p->field, place)), p->field.cap, &capped));
 }
 
 /* Puts all vertices where the field has them. */
@@ -361,7 +360,7 @@ static void set_reach(Push *p, double reach) {
 
 void push_solve(Push *p, PushResult *result) {
     double moved = INFINITY;
-    field_drop_spots(&p->field.dent);
+    field_drop_dents(&p->field);
     for (int round = 0; round < ROUNDS_MAX && moved >= p->reach; round++) {
         set_reach(p, (round == 0 ? REACH : REACHES_ON) * p->field.scale);
         find_samples(p);

@@ -13,10 +13,12 @@ static const double JUST_CLEAR = 0.5;  /* share of PUSH_MARGIN by which a facet 
 bool settle_reserve(Settler *s, const Lattice *lattice, Arena *arena, Error *e) {
     *s = (Settler){.nraised = 0};
     s->raised = ARENA_NEW(arena, int, lattice->nplaces, e);
-    return s->raised && dent_reserve(&s->denter, lattice, arena, e);
+    s->is_listed = ARENA_NEW(arena, bool, lattice->nplaces, e);
+    return s->raised && s->is_listed && dent_reserve(&s->denter, lattice, arena, e);
 }
 
 void settle_start(Settler *s) {
+    for (int k = 0; k < s->nraised; k++) s->is_listed[s->raised[k]] = false;
     s->nraised = s->nmarked = 0;
     dent_start(&s->denter);
 }
@@ -29,12 +31,11 @@ static unsigned parts_near(const BodyFrame *body, BodyPoint *p, double far) {
     return near;
 }
 
-/* Moves a vertex by a vector because of a part: by an offset if it is worn over the part, by a deeper dent if the part
-   comes from outside. */
-static void move(const Settler *s, Push *p, int vertex, Vec3 by, bool is_worn, bool *capped) {
+/* Moves a vertex by a vector because of a part: by a deeper dent if the part is bare, else by an offset. */
+static void move(Settler *s, Push *p, int vertex, Vec3 by, int part, bool *capped) {
     double most = OFFSET_MAX * p->field.scale;
-    if (!is_worn) {
-        dent_add(&s->denter, p, vertex, by, most, capped);
+    if (limb_is_bare(p, part)) {
+        dent_add(&s->denter, p, vertex, part, by, most, capped);
         return;
     }
     int place = p->sheet->place[vertex];
@@ -67,7 +68,7 @@ static bool step_out(const Push *p, EscapePoint *at, int part, Vec3 *step) {
 }
 
 /* Takes a vertex out of all parts that it is too near to. */
-static void settle_vertex(const Settler *s, Push *p, int vertex, bool *capped) {
+static void settle_vertex(Settler *s, Push *p, int vertex, bool *capped) {
     const BodyFrame *body = p->body;
     const Near *seen = &p->near[vertex];
     if (near_slack(seen->least, p->clearance[vertex]) > vec_dist(p->point[vertex], seen->seen)) return;
@@ -81,7 +82,7 @@ static void settle_vertex(const Settler *s, Push *p, int vertex, bool *capped) {
             int part = near_first(left);
             Vec3 by;
             if (!step_out(p, &at, part, &by)) continue;
-            move(s, p, vertex, by, escape_is_own(&p->escape, body, at.place, part), capped);
+            move(s, p, vertex, by, part, capped);
             body_point_move(&at.point, p->point[vertex]);
             moved = true;
         }
@@ -93,8 +94,13 @@ void settle_all(Settler *s, Push *p, bool *capped) {
     for (int v = 0; v < p->sheet->nvertices; v++) settle_vertex(s, p, v, capped);
 }
 
-void settle_raised(const Settler *s, Push *p, bool *capped) {
+void settle_raised(Settler *s, Push *p, bool *capped) {
     for (int k = 0; k < s->nraised; k++) settle_vertex(s, p, s->raised[k], capped);
+}
+
+static void list(Settler *s, int vertex) {
+    if (!s->is_listed[vertex]) s->raised[s->nraised++] = vertex;
+    s->is_listed[vertex] = true;
 }
 
 static bool is_raised(const Push *p, int vertex) { return p->clearance[vertex] > PUSH_MARGIN * p->field.scale; }
@@ -102,14 +108,14 @@ static bool is_raised(const Push *p, int vertex) { return p->clearance[vertex] >
 bool settle_raise(Settler *s, Push *p, int vertex, double by, double most) {
     double limit = (PUSH_MARGIN + fmin(most, RAISE_MAX)) * p->field.scale;
     if (p->clearance[vertex] >= limit) return false;
-    if (!is_raised(p, vertex)) s->raised[s->nraised++] = vertex;
+    list(s, vertex);
     p->clearance[vertex] = fmin(p->clearance[vertex] + by * p->field.scale, limit);
     return true;
 }
 
 /* Moves the vertices of a hit by the least that takes the point where it crosses as far off the part as it should
    be. */
-static void move_off(const Settler *s, Push *p, const TesterHit *hit) {
+static void move_off(Settler *s, Push *p, const TesterHit *hit) {
     const BodyFrame *body = p->body;
     int place = p->sheet->place[tester_hit_vertex(hit)];
     bool is_worn = escape_is_own(&p->escape, body, place, hit->part);
@@ -127,8 +133,15 @@ static void move_off(const Settler *s, Push *p, const TesterHit *hit) {
         double by = way * hit->weight[c] / norm2;
         bool capped = false;
         if (!is_worn) by = escape_free(&p->escape, body, p->sheet->place[v], p->point[v], clearance, n, by);
-        if (by > 0) move(s, p, v, vec_scale(n, by), is_worn, &capped);
+        if (by > 0) move(s, p, v, vec_scale(n, by), hit->part, &capped);
     }
+}
+
+/* Takes the dent of a vertex back. Others that follow it are tested again like raised ones. */
+static void take_back(Settler *s, Push *p, int vertex) {
+    Denter *d = &s->denter;
+    dent_back(d, p, vertex);
+    for (int k = 0; k < d->nloose; k++) list(s, d->loose[k]);
 }
 
 /* If the part is an own one, a hollow that an arm presses may be the reason: then the vertices are taken back out of
@@ -137,7 +150,7 @@ void settle_hit(Settler *s, Push *p, const TesterHit *hit) {
     bool is_worn_over = p->field.lattice->fit->collide & part_bit(p->body, hit->part);
     bool is_all_raised = true;
     for (int c = 0; c < hit->n; c++) {
-        if (is_worn_over) dent_back(&s->denter, p, hit->v[c]);
+        if (is_worn_over) take_back(s, p, hit->v[c]);
         is_all_raised = is_all_raised && is_raised(p, hit->v[c]);
     }
     if (is_all_raised) move_off(s, p, hit);
@@ -148,7 +161,7 @@ void settle_mark(Settler *s, const Push *p) {
     s->nmarked = s->nraised;
     for (int k = 0; k < s->nmarked && k < MARKED_MOST; k++) {
         s->was_offset[k] = p->field.offset.at[p->sheet->place[s->raised[k]]];
-        s->was_dent[k] = p->field.dent.at[p->sheet->place[s->raised[k]]];
+        s->were_dents[k] = field_dents(&p->field, p->sheet->place[s->raised[k]]);
         s->was_point[k] = p->point[s->raised[k]];
     }
 }
@@ -156,7 +169,7 @@ void settle_mark(Settler *s, const Push *p) {
 bool settle_restore(const Settler *s, Push *p) {
     for (int k = 0; k < s->nmarked && s->nmarked <= MARKED_MOST; k++) {
         field_set_spot(&p->field.offset, p->sheet->place[s->raised[k]], s->was_offset[k]);
-        field_set_spot(&p->field.dent, p->sheet->place[s->raised[k]], s->was_dent[k]);
+        field_set_dents(&p->field, p->sheet->place[s->raised[k]], s->were_dents[k]);
         p->point[s->raised[k]] = s->was_point[k];
     }
     return s->nmarked <= MARKED_MOST;

@@ -45,7 +45,7 @@ static const Column frame_columns[] = {
      "body edges through it, of all other parts: arms that come from outside"},
     {"limb_cloth", "", KIND_INT, AT(stats.limb_cloth), "garment edges through these parts"},
     {"limb_inside", "", KIND_INT, AT(stats.limb_inside), "garment vertices inside these parts"},
-    {"pinched", "", KIND_INT, AT(stats.pinched), "vertices where the body leaves no room for cloth"},
+    {"pinched", "", KIND_INT, AT(stats.pinched), "vertices for which there is no room, or none that cloth could reach"},
     {"capped", "", KIND_FLAG, AT(stats.capped), "1: a cap of sweeps, rounds or displacement was reached"},
     {"restarted", "", KIND_FLAG, AT(stats.restarted),
      "1: the shape of the frame before was forgotten, the motion jumps"},
