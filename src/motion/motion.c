@@ -17,6 +17,10 @@ enum { JOINTS_DEFAULT = 10000, FRAMES_DEFAULT = 100000000, STRIDE_FIRST = 16 };
 /* Frame times outside are suspected to be a mistake: 480 and 5 frames per second. */
 static const double frame_time_low = 1.0 / 480, frame_time_high = 1.0 / 5;
 
+static bool refuse_binary(const char *name, Error *e) {
+    return error_set(e, ERR_INPUT, "'%s' is a binary file or UTF-16, not plain text", name);
+}
+
 /* Copies what cannot be read by position (standard input, a pipe) to a file without a name. */
 static bool spool(int from, const char *name, int *fd, Error *e) {
     FILE *f = tmpfile();
@@ -26,7 +30,7 @@ static bool spool(int from, const char *name, int *fd, Error *e) {
     while ((n = read(from, block, sizeof block)) != 0) {
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) error_set(e, ERR_INPUT, "cannot read '%s': %s", name, strerror(errno));
-        else if (memchr(block, 0, (size_t)n)) error_set(e, ERR_INPUT, "'%s' is a binary file or UTF-16, not plain text", name);
+        else if (memchr(block, 0, (size_t)n)) refuse_binary(name, e);
         else if (fwrite(block, 1, (size_t)n, f) != (size_t)n)
             error_set(e, ERR_OUTPUT, "cannot keep '%s' in a temporary file: %s", name, strerror(errno));
         else continue;
@@ -45,7 +49,7 @@ static bool check_text(int fd, const char *name, Error *e) {
     ssize_t n = pread(fd, start, sizeof start, 0);
     if (n < 0) return error_set(e, ERR_INPUT, "cannot read '%s': %s", name, strerror(errno));
     if (n == 0) return error_set(e, ERR_INPUT, "'%s' is empty", name);
-    if (memchr(start, 0, (size_t)n)) return error_set(e, ERR_INPUT, "'%s' is a binary file or UTF-16, not plain text", name);
+    if (memchr(start, 0, (size_t)n)) return refuse_binary(name, e);
     return true;
 }
 

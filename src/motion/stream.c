@@ -217,7 +217,9 @@ bool stream_refuse(Stream *s, NumberResult r, const char *what, Error *e) {
     if (!stream_sound(s, e)) return false;
     switch (r) {
     case NUMBER_END: return stream_error(s, e, "the file ends before %s", what);
-    case NUMBER_COMMA: return stream_error(s, e, "%s: comma in '%.*s': decimals have a point, and blanks between them", what, n, w.start);
+    case NUMBER_COMMA:
+        return stream_error(s, e, "%s: comma in '%.*s': decimals have a point, and blanks between them", what, n,
+                            w.start);
     case NUMBER_INFINITE: return stream_error(s, e, "%s is '%.*s', not a finite number", what, n, w.start);
     case NUMBER_RANGE: return stream_error(s, e, "%s is '%.*s', out of range", what, n, w.start);
     default: return stream_error(s, e, "%s: expected a number, found '%.*s'", what, n, w.start);
