@@ -90,6 +90,9 @@ ok 'an unknown command, with the nearest one' refuses 2 "did you mean 'dress'" d
 ok 'an option in front of the command' refuses 2 "expected a command in front of '-q'" -q dress
 ok 'a mistake tells where to read on' refuses 2 "^Use 'kitsuke dress --help'" dress --nope
 ok 'contradicting options are both named' refuses 2 "'--quiet' and '--verbose'" dress -q -v
+ok 'also where one stands in a job file' eval 'printf "quiet\nverbose\n" >both.job &&
+    refuses 2 "contradict" dress --job both.job'
+ok 'a list has no columns to add' refuses 2 "'--list' and '--landmarks'" verify x --list --landmarks
 ok 'none beside another format' refuses 2 "'none'" dress --format obj,none
 ok 'a switch takes yes and no only' refuses 2 "option '--force' is a switch" dress --force=perhaps
 ok 'no motion' refuses 2 'nothing to dress' dress -g "$skirt" -o o
@@ -100,6 +103,10 @@ ok 'frames that the motion does not have' refuses 2 "begins at 5000" dress "$wal
 for span in 0 3:2 1:2:0 a 1:2:3:4 1.5 -3 1::-1; do
     ok "--frames $span" refuses 2 "option '--frames'" dress "--frames=$span"
 done
+for command in dress compare; do
+    ok "$command writes a folder, not standard output" refuses 2 "expected a folder" $command "$walk" -g "$skirt" -o -
+done
+is 'and makes none that is called -' "$(ls -d ./- 2>/dev/null)" ''
 ok 'nothing to inspect' refuses 2 'nothing to inspect' inspect
 ok '--joints takes one file' refuses 2 "'--joints'" inspect --joints "$walk" "$walk"
 ok 'nothing to verify' refuses 2 'nothing to verify' verify
@@ -127,6 +134,8 @@ ok 'and the body is there again' test -f h/paper-walk/body.0001.obj
 ok 'nothing was written to the folder that lost' test ! -e nowhere
 cp "$walk" ./-x.bvh
 ok 'an operand that begins with a dash' "$KITSUKE" inspect -- -x.bvh
+must_fail 3 "$KITSUKE" dress - -g "$skirt" -o i >log
+is 'where nothing comes from' "$(cat err)" "kitsuke: '<stdin>' is empty"
 from_pipe() { "$KITSUKE" dress - -g "$skirt" -o i --frames 1:1 -q <"$walk" && [ -f i/stdin/skirt.0001.obj ]; }
 ok '- is standard input' from_pipe
 

@@ -133,5 +133,8 @@ echo 'a file' >file
 ok 'the paper knows no fixed topology' must_fail 2 "$KITSUKE" dress --method paper --topology fixed "$walk" \
     -g "$skirt" -o bad
 ok 'a folder that is a file' refuses 4 'file' "$walk" -g "$skirt" -o file --no-times --frames 1:2
+"$KITSUKE" walk --preset paper --steps 60 -o long.bvh
+ok 'where nothing can be written nothing is computed' must_fail 4 timeout 30 "$KITSUKE" compare long.bvh -g "$skirt" \
+    -o /proc/self --repeat 16
 is 'nothing is written' "$(ls -d bad 2>/dev/null)" ''
 done_testing

@@ -59,6 +59,11 @@ ok 'no motion' refuses 2 'nothing to draw' -g "$skirt" -o x.svg
 ok 'two motions' refuses 2 'takes one motion' "$walk" "$walk" -g "$skirt" -o x.svg
 ok 'no garment' refuses 2 'nothing to put on' "$walk" -o x.svg
 ok 'no output' refuses 2 'no place to write to' "$walk" -g "$skirt"
+cp "$walk" own.bvh
+cp "$skirt" own.garment
+ok 'the motion is not drawn over' refuses 2 "'own.bvh' is read" own.bvh -g own.garment -o ./own.bvh
+ok 'nor the garment' refuses 2 "'own.garment' is read" own.bvh -g own.garment -o ./own.garment
+is 'and both are as they were' "$(cmp "$walk" own.bvh 2>&1; cmp "$skirt" own.garment 2>&1)" ''
 ok 'a frame behind the end' refuses 2 "asks for frame 73, but .* has 72" "$walk" -g "$skirt" -o x.svg --frames 3,73
 ok 'too many' refuses 2 '72 pictures are too many' "$walk" -g "$skirt" -o x.svg --frames 1:72
 ok 'too many with their cells' refuses 2 '80 pictures are too many' "$walk" -g "$skirt" -o x.svg --frames 1:40 \

@@ -133,6 +133,11 @@ cp -R step again
 printf 'mine\n' >again/paper-walk/notes.txt
 ok 'a motion folder with files is refused: exit 4' must_fail 4 dress "$walk" -g "$skirt" -o again --frames 1:2
 like 'the message says how to go on' "$(cat err)" "'again/paper-walk' holds files of an earlier run; --force"
+mkdir crowded
+cp "$walk" crowded/a.bvh
+cp "$walk" crowded/a.amc
+must_fail 4 "$KITSUKE" dress crowded -g "$skirt" -o crowded >log
+like 'a file where a folder has to be is no earlier run' "$(cat err)" "cannot make the folder 'crowded/a.amc': Not a"
 is 'nothing was touched' "$(list again/paper-walk)" "$(list step/paper-walk | sed 's/ \.\/skirt/ .\/notes.txt&/')"
 dress "$walk" -g "$skirt" -o again --frames 1:2 --force --no-body
 is '--force leaves none of the old frames, and what is not ours' "$(list again/paper-walk)" \

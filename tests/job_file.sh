@@ -90,6 +90,7 @@ is 'and nothing else' "$(grep -c -v '^#' first.job)" 13
 "$KITSUKE" walk --job walk.job >a.bvh
 "$KITSUKE" walk --speed 0.9 --steps 3 >b.bvh
 same 'other commands have jobs too' a.bvh b.bvh
+like 'also for the folders that they read' "$("$KITSUKE" verify first --list --print-job)" '^folder first$'
 for value in '"x' '"' 'x"y"' '#x' 'x #y' 'x#y' ' x' 'x ' 'a\b' 'tab	x' \
     'a b c d e f g h i j k l m n o p q r s t u v w x y z'; do
     "$KITSUKE" walk -o "$value" --print-job >a.job && "$KITSUKE" walk --job a.job --print-job >b.job &&

@@ -182,7 +182,7 @@ static void test_obj_parse(void) {
         {SQUARE "f 1 2 -5\n", "there is no vertex -5", 5, 7},
         {SQUARE "f 1/1 2/1 3/1\n", "there is no texture coordinate 1", 5, 5},
         {SQUARE "f 1//2 2//2 3//2\n", "there is no normal 2", 5, 6},
-        {SQUARE "f 1 2\n", "a face of 2 corners", 5, 2},
+        {SQUARE "f 1 2\n", "a face of 2 corners", 5, 3},
         {SQUARE "f 1 2 3x\n", "expected a corner", 5, 8},
         {SQUARE "f 1 2 x\n", "expected the number of a vertex", 5, 7},
         {SQUARE "f 1 2 3/1/1/1\n", "there is no texture coordinate 1", 5, 9},

@@ -128,6 +128,12 @@ ok 'another rate' verify 0 fast --parts $hips --acceleration --rate 30
 ok 'is another result' test "$(told acceleration)" != "$(cat told)"
 ok 'all frames' verify 0 out --parts $hips
 cp table whole
+mkdir two
+cp -r fast/paper-walk two/long
+cp -r fast/paper-walk two/brief
+rm two/brief/*.000[23].*
+ok 'frames that one of two motions does not have' verify 2 two --frames 2:3 --parts $hips
+is 'are those of the other' "$(joined motion table)" 'long long '
 ok 'a folder of one motion' verify 0 out/paper-walk --parts $hips
 is 'gives the same rows' "$(cut -d, -f 2- table)" "$(cut -d, -f 2- whole)"
 mkdir decoded

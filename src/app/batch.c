@@ -101,6 +101,7 @@ static void speak(Batch *b) {
 
 /* Adds the motion's path to an error that does not name it: lower floors do not know it. */
 static void name_motion(Error *e, const char *path) {
+    if (strcmp(path, "-") == 0) path = "<stdin>";
     if (e->kind && !e->file[0] && !strstr(e->text, path)) snprintf(e->file, sizeof e->file, "%s", path);
 }
 

@@ -46,12 +46,12 @@ ErrorKind cmd_dress(const Settings *s, Error *e) {
     int total = 0;
     ErrorKind code = ERR_USAGE;
     Wardrobe w;
-    stop_listen();
     bool good = check_needed(s, e);
     if (good && s->merge) {
         code = summary_merge(s, &arena, e) ? ERR_NONE : e->kind;
     } else {
         good = good && wardrobe_read(s, &arena, &w, e) && collect(s, &arena, &input, &total, e);
+        stop_listen(); /* not before all that may wait for standard input is read */
         code = good ? batch_run(&w, input, take_shard(s->shard, input, total), total, &arena, e) : e->kind;
     }
     arena_free(&arena);

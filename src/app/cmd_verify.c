@@ -294,8 +294,12 @@ static bool verify_reel(Run *r, Arena *arena, Error *e) {
         return true;
     }
     if (!reel_frames(r->reel, &r->settings->frames, arena, &frame, &n, &step, e)) return false;
-    if (n == 0)
-        return error_set(e, ERR_USAGE, "option '--frames': '%s' has none of them", r->reel->body.pattern);
+    if (n == 0) {
+        Error none = {0};
+        error_set(&none, ERR_USAGE, "option '--frames': '%s' has none of them", r->reel->body.pattern);
+        complain(r, &none);
+        return true;
+    }
     report_missing(r, &r->reel->body, frame, n, step);
     for (int g = 0; g < r->reel->ngarments; g++) report_missing(r, &r->reel->garment[g], frame, n, step);
     r->nframes = 0;

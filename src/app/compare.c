@@ -185,16 +185,13 @@ static void put_row(const FrameRow *row, const char *method, bool times, FILE *o
     fputc('\n', out);
 }
 
-static bool write_table(const Experiment *x, const char *path, Error *e) {
-    Output out;
+static void put_table(const Experiment *x, FILE *out) {
     bool times = !x->settings->no_times;
-    if (!output_open(&out, path, e)) return false;
-    fprintf(out.file, "frame,method,nodes,leaves,tests,tests_culled,depth,cells,hits,displacement,residual_edges,"
-                      "residual_cloth,inside,control_points,bytes%s\n", times ? ",tests_s,tests_culled_s,solve_s" : "");
+    fprintf(out, "frame,method,nodes,leaves,tests,tests_culled,depth,cells,hits,displacement,residual_edges,"
+                 "residual_cloth,inside,control_points,bytes%s\n", times ? ",tests_s,tests_culled_s,solve_s" : "");
     for (int f = 0; f < x->nframes; f++)
         for (int m = 0; m < COMPARE_METHODS; m++)
-            if (is_run(x, m)) put_row(&x->row[m][f], compare_name((CompareMethod)m), times, out.file);
-    return output_close(&out, e);
+            if (is_run(x, m)) put_row(&x->row[m][f], compare_name((CompareMethod)m), times, out);
 }
 
 /* Figure 7: tests (a) or milliseconds in them (b) over the frames. Nothing is tested more or less
@@ -236,12 +233,17 @@ static bool prepare_files(const Experiment *x, const char *folder, char path[FIL
     return true;
 }
 
+/* The table is opened first: where it cannot be written nobody should wait for it. */
 static bool run(Experiment *x, const Input *input, const char *folder, Notes *notes, Error *e) {
     char path[FILES][OUTPUT_PATH_MAX];
-    if (!open_all(x, input, notes, e) || !prepare_files(x, folder, path, e)) return false;
+    Output table;
+    if (!open_all(x, input, notes, e) || !prepare_files(x, folder, path, e) ||
+        !output_open(&table, path[FILE_TABLE], e))
+        return false;
     for (int r = 0; r < compare_runs(x->settings); r++)
-        if (!dress_frames(x, r, notes, e)) return false;
-    if (!write_table(x, path[FILE_TABLE], e)) return false;
+        if (!dress_frames(x, r, notes, e)) return output_abandon(&table), false;
+    put_table(x, table.file);
+    if (!output_close(&table, e)) return false;
     if (x->sum[COMPARE_ADAPTIVE].contact_frames == 0) return true;
     return draw(x, path[FILE_TESTS], false, e) && (x->settings->no_times || draw(x, path[FILE_TIMES], true, e));
 }

@@ -14,7 +14,7 @@
 
 bool folder_has_files(const char *path) {
     DIR *folder = opendir(path);
-    if (!folder) return errno != ENOENT;
+    if (!folder) return errno != ENOENT && errno != ENOTDIR;
     bool found = false;
     for (struct dirent *entry; !found && (entry = readdir(folder));) {
         struct stat info;

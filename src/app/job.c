@@ -223,8 +223,9 @@ static void tell(const Job *j, FILE *about) {
             m->nframes == 1 ? "" : "s", 1 / m->frame_time, f->height, f->unit_name, f->rest);
     for (int g = 0; g < j->order.wardrobe->ngarments; g++) {
         const SummaryRow *sum = &j->result->row[g];
-        fprintf(about, "%s/%s: %d frames, %d with residuals, moved by %.1f cm at most\n", name,
-                j->order.wardrobe->garment[g]->name, sum->frames, sum->residual_frames, 100 * sum->max_displacement);
+        fprintf(about, "%s/%s: %d frame%s, %d with residuals, moved by %.1f cm at most\n", name,
+                j->order.wardrobe->garment[g]->name, sum->frames, sum->frames == 1 ? "" : "s", sum->residual_frames,
+                100 * sum->max_displacement);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "app/options.h"
 
 #include <string.h>
+#include <sys/stat.h>
 
 #include "app/jobfile.h"
 
@@ -19,8 +20,9 @@ typedef struct {
     bool given[OPTIONS_MAX]; /* by place in the table */
 } Parser;
 
-/* Pairs that contradict each other. */
-static const char *const conflicts[][2] = {{"quiet", "verbose"}};
+/* Switches that contradict each other. */
+static const char *const conflicts[][2] = {{"quiet", "verbose"}, {"list", "acceleration"}, {"list", "landmarks"}};
+enum { CONFLICTS = sizeof conflicts / sizeof conflicts[0] };
 
 static bool unknown_option(const Parser *p, const char *word, const char *name, Error *e) {
     const char *near = settings_nearest(name, p->command->bit);
@@ -37,17 +39,23 @@ static bool foreign_option(const Parser *p, const Option *option, Error *e) {
     return error_set(e, ERR_USAGE, "'%s' has no option '--%s'", p->command->name, option->name);
 }
 
-/* Contradictions are judged within the command line; a job file gives way to it, lists as a whole. */
-static bool put(Parser *p, const Option *option, const char *value, Error *e) {
-    bool *given = &p->given[option - settings_table];
-    if (option->kind == KIND_LIST && !*given) *(TextList *)((char *)p->settings + option->field) = (TextList){0};
-    for (size_t i = 0; i < sizeof conflicts / sizeof conflicts[0]; i++)
+static void *field_of(const Settings *s, const Option *option) { return (char *)s + option->field; }
+
+/* A job file gives way to the command line: a list as a whole, a switch to the one that contradicts it. */
+static void displace(Parser *p, const Option *option) {
+    if (p->given[option - settings_table]) return;
+    if (option->kind == KIND_LIST) *(TextList *)field_of(p->settings, option) = (TextList){0};
+    for (int i = 0; i < CONFLICTS; i++)
         for (int side = 0; side < 2; side++) {
             if (strcmp(conflicts[i][side], option->name) != 0) continue;
             const Option *other = settings_find(conflicts[i][!side], p->command->bit);
-            if (!p->given[other - settings_table]) *(bool *)((char *)p->settings + other->field) = false;
+            if (!p->given[other - settings_table]) *(bool *)field_of(p->settings, other) = false;
         }
-    *given = true;
+}
+
+static bool put(Parser *p, const Option *option, const char *value, Error *e) {
+    displace(p, option);
+    p->given[option - settings_table] = true;
     return settings_put(p->settings, option, value, p->arena, e);
 }
 
@@ -88,23 +96,11 @@ static bool parse_letters(Parser *p, const char *word, Error *e) {
     return true;
 }
 
-static bool check_conflicts(const Parser *p, Error *e) {
-    for (size_t i = 0; i < sizeof conflicts / sizeof conflicts[0]; i++) {
-        const Option *a = settings_find(conflicts[i][0], p->command->bit);
-        const Option *b = settings_find(conflicts[i][1], p->command->bit);
-        if (p->given[a - settings_table] && p->given[b - settings_table])
-            return error_set(e, ERR_USAGE, "'--%s' and '--%s' contradict each other", a->name, b->name);
-    }
-    const Settings *s = p->settings;
-    if ((s->formats & FORMAT_NONE) && s->formats != FORMAT_NONE)
-        return error_set(e, ERR_USAGE, "option '--format': 'none' cannot stand beside another format");
-    if (s->method == METHOD_PAPER && s->fixed)
-        return error_set(e, ERR_USAGE, "'--method paper' has no fixed topology: its patches share nothing");
-    return true;
-}
-
-static bool put_operand(Parser *p, const char *word, Error *e) {
-    return put(p, settings_find("motion", COMMAND_ALL), word, e); /* what operands are short for */
+/* What a word without a dash is short for. */
+static const Option *find_operand(const Command *command) {
+    for (const Option *o = settings_table; o->name; o++)
+        if (o->field == offsetof(Settings, inputs) && (o->commands & command->bit)) return o;
+    return settings_find("motion", COMMAND_ALL);
 }
 
 /* All words, on top of what the settings hold already. */
@@ -117,18 +113,54 @@ static bool parse_words(const Command *command, int argc, char **argv, Arena *ar
         if (!operands_only && strcmp(word, "--") == 0) operands_only = true;
         else if (!operands_only && strncmp(word, "--", 2) == 0) good = parse_long(&p, word, e);
         else if (!operands_only && word[0] == '-' && word[1]) good = parse_letters(&p, word, e);
-        else good = put_operand(&p, word, e);
+        else good = put(&p, find_operand(command), word, e);
         if (!good) return false;
         if (out->help || out->version) return true;
     }
-    return check_conflicts(&p, e);
+    return true;
+}
+
+static bool check_conflicts(const Command *command, const Settings *s, Error *e) {
+    for (int i = 0; i < CONFLICTS; i++) {
+        const Option *a = settings_find(conflicts[i][0], command->bit);
+        const Option *b = settings_find(conflicts[i][1], command->bit);
+        if (*(bool *)field_of(s, a) && *(bool *)field_of(s, b))
+            return error_set(e, ERR_USAGE, "'--%s' and '--%s' contradict each other", a->name, b->name);
+    }
+    if ((s->formats & FORMAT_NONE) && s->formats != FORMAT_NONE)
+        return error_set(e, ERR_USAGE, "option '--format': 'none' cannot stand beside another format");
+    if (s->method == METHOD_PAPER && s->fixed)
+        return error_set(e, ERR_USAGE, "'--method paper' has no fixed topology: its patches share nothing");
+    return true;
+}
+
+/* Nothing that is read may be written over. */
+static bool check_input(const Settings *s, const char *path, Error *e) {
+    struct stat input, output;
+    bool is_same = stat(path, &input) == 0 && S_ISREG(input.st_mode) && stat(s->output, &output) == 0 &&
+                   input.st_dev == output.st_dev && input.st_ino == output.st_ino;
+    return !is_same || error_set(e, ERR_USAGE, "'%s' is read: it cannot be the output as well", path);
+}
+
+static bool check_output(const Command *command, const Settings *s, Error *e) {
+    for (const Option *o = settings_table; o->name && s->output; o++) {
+        if (!(o->commands & command->bit) || !settings_is_path(o) || o->field == offsetof(Settings, output)) continue;
+        void *field = field_of(s, o);
+        const TextList one = {1, field}, *list = o->kind == KIND_LIST ? field : &one;
+        for (int i = 0; i < list->count; i++)
+            if (list->item[i] && !check_input(s, list->item[i], e)) return false;
+    }
+    return true;
 }
 
 bool options_parse(const Command *command, int argc, char **argv, Arena *arena, Settings *out, Error *e) {
     settings_clear(out);
     if (!parse_words(command, argc, argv, arena, out, e)) return false;
-    const char *job = out->job;
-    if (!job || out->help || out->version) return true;
-    settings_clear(out);
-    return jobfile_read(job, command, arena, out, e) && parse_words(command, argc, argv, arena, out, e);
+    const char *job = out->help || out->version ? NULL : out->job;
+    if (job) {
+        settings_clear(out);
+        if (!jobfile_read(job, command, arena, out, e)) return false;
+        if (!parse_words(command, argc, argv, arena, out, e)) return false;
+    }
+    return out->help || out->version || (check_conflicts(command, out, e) && check_output(command, out, e));
 }

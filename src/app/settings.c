@@ -32,8 +32,12 @@ static const Choice progress_modes[] = {
 #define MOVES (BODIES | COMMAND_INSPECT)                         /* what opens motions */
 
 const Option settings_table[] = {
-    {"motion", 0, KIND_LIST, FIELD(inputs), "FILE", "Motion", MOVES,
-     "motion or folder of motions; on a command line the path alone is enough"},
+    {"motion", 0, KIND_LIST, FIELD(inputs), "FILE", "Motion", COMMAND_DRESS | COMMAND_COMPARE,
+     "motion, folder of motions or pattern in quotes; on a command line the path alone is enough"},
+    {"motion", 0, KIND_LIST, FIELD(inputs), "FILE", "Motion", COMMAND_DRAW,
+     "motion to draw; on a command line the path alone is enough"},
+    {"motion", 0, KIND_LIST, FIELD(inputs), "FILE", "Motion", COMMAND_INSPECT,
+     "motion, garment or body; on a command line the path alone is enough"},
     {"files-from", 0, KIND_TEXT, FIELD(files_from), "FILE", "Motion", COMMAND_DRESS,
      "list of more motions, one in a line, or separated by NUL; -: standard input"},
     {"asf", 0, KIND_TEXT, FIELD(asf), "FILE", "Motion", MOVES,
@@ -160,6 +164,8 @@ const Option settings_table[] = {
     {"output", 'o', KIND_TEXT, FIELD(output), "FILE", "Output", COMMAND_DRAW,
      "SVG file to write; - is standard output"},
 
+    {"folder", 0, KIND_LIST, FIELD(inputs), "DIR", "Meshes", COMMAND_VERIFY,
+     "what dress wrote; on a command line the path alone is enough"},
     {"garment", 'g', KIND_LIST, FIELD(garments), "FILE", "Meshes", COMMAND_VERIFY,
      "garment meshes, the frame's number at *, #### or %04d; repeat it for several", .fallback = "those in DIR"},
     {"body", 0, KIND_TEXT, FIELD(body), "FILE", "Meshes", COMMAND_VERIFY,

@@ -187,7 +187,9 @@ bool settings_put(Settings *s, const Option *option, const char *text, Arena *ar
     case KIND_UNIT: return put_unit(field, option, text, e);
     case KIND_TEXT: break;
     }
-    if (!*text) return error_set(e, ERR_USAGE, "option '--%s' needs a %s", option->name, option->argument);
+    if (!*text) return error_set(e, ERR_USAGE, "option '--%s' needs a value: %s", option->name, option->argument);
+    if (strcmp(option->argument, "DIR") == 0 && strcmp(text, "-") == 0)
+        return settings_expected(option->name, "a folder, which standard output is not", text, e);
     if (option->choices && !find_choice(option, text, strlen(text))) return wrong_choice(option, text, strlen(text), e);
     *(const char **)field = text;
     return true;

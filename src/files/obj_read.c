@@ -147,6 +147,7 @@ static bool take_corner(Reader *r, int *vertex, Error *e) {
 
 static bool read_face(Reader *r, Error *e) {
     Mesh *m = r->mesh;
+    find_word(&r->at);
     const char *start = r->at.at;
     int corners = 0, first = 0, last = 0;
     for (; find_word(&r->at); corners++) {

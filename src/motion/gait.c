@@ -106,7 +106,8 @@ static bool complete(Gait *g, const Preset *preset, double *frame_time, Error *e
     *frame_time = step_time / g->frames_per_step;
     if (!in_range("time of a step", " s", step_time, 0.15, 5, e)) return false;
     if ((g->steps + 4.0) * STEPS_A_SQUAT * g->frames_per_step > FRAMES_MAX)
-        return error_set(e, ERR_USAGE, "%d steps of %d frames are too many", g->steps, g->frames_per_step);
+        return error_set(e, ERR_USAGE, "%d steps of %d frames are too many: %d are possible", g->steps,
+                         g->frames_per_step, FRAMES_MAX / (STEPS_A_SQUAT * g->frames_per_step) - 4);
     return true;
 }
 
