@@ -158,6 +158,7 @@ static double skip_points(const Tree *t, const Way *w, int from, int to, double 
    chains of the same names for their animators, which may be at rest. */
 static bool keeps_still(const Tree *t, int hub, const Limb *limb) {
     static const double NO_MOVE = 1e-3; /* of the limb */
+    if (t->sample->count < 2) return false; /* a single pose does not tell */
     for (int i = 1; i < 3; i++) {
         Vec3 first = {0, 0, 0};
         for (int f = 0; f < t->sample->count; f++) {
