@@ -17,6 +17,7 @@ typedef struct {
     int residual_frames;     /* with anything that still shows through any garment */
     double seconds[STAGE_COUNT];
     SummaryRow *row;         /* ngarments of them, by the caller: sums over the frames so far */
+    char *recorded;          /* the rows as text, where an earlier run has finished the motion, else NULL; malloc */
 } JobResult;
 
 typedef struct {

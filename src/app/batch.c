@@ -3,9 +3,8 @@
    A worker that is free goes on with the motion it is at, else opens the next one, else helps with
    the chunks of a motion that another has opened, else with a garment of a frame (see crew.c), else
    with writing (see press.c); so many short motions and one long one both keep every worker busy. What
-   a motion has to say is kept as text until all motions before it have spoken, and the summary's rows
-   are written at the end from an array in the order of the inputs; so a run on sixteen threads reads
-   like a run on one. */
+   a motion has to say is kept as text until all motions before it have spoken, and the summary is
+   written at the end; so a run on sixteen threads reads like a run on one. */
 #include "app/batch.h"
 
 #include <pthread.h>
@@ -17,20 +16,18 @@
 #include "app/crew.h"
 #include "app/folder.h"
 #include "app/progress.h"
+#include "app/report.h"
 #include "app/stop.h"
 #include "app/summary.h"
 #include "base/clock.h"
 #include "base/thread.h"
-#include "files/lock.h"
 
 /* A motion in the batch. */
 typedef struct {
-    JobResult result;
     double weight;        /* for the progress: its size */
     int frames, ready;    /* that there will be; that are written */
     bool exists;          /* its folder holds files of an earlier run */
     bool is_done;
-    char *rows;           /* of the summary, where an earlier run has finished it; malloc */
     char *said;           /* messages, waiting for their turn; malloc */
 } Item;
 
@@ -54,7 +51,8 @@ typedef struct {
     const Input *input;
     Digest options;
     Item *item;
-    int count, total;     /* total: with the other shards */
+    JobResult *result;    /* of each item */
+    int count;
     Worker *worker;
     Slot *slot;           /* as many as workers */
     int nworkers;
@@ -68,7 +66,7 @@ typedef struct {
 
 typedef struct { Batch *batch; Item *item; } Watcher;
 
-static double under_way(const Batch *b) {
+static double weight_under_way(const Batch *b) {
     double sum = 0;
     for (int i = 0; i < b->nworkers; i++) {
         const Item *item = b->slot[i].state != SLOT_FREE ? &b->item[b->slot[i].item] : NULL;
@@ -82,7 +80,7 @@ static void frame_done(void *context) {
     pthread_mutex_lock(&w->batch->lock);
     w->item->ready++;
     w->batch->progress.frames++;
-    progress_draw(&w->batch->progress, under_way(w->batch));
+    progress_draw(&w->batch->progress, weight_under_way(w->batch));
     pthread_mutex_unlock(&w->batch->lock);
 }
 
@@ -110,11 +108,12 @@ static void finish(Batch *b, Slot *slot) {
     const Settings *s = b->wardrobe->settings;
     Item *item = &b->item[slot->item];
     if (slot->job) job_close(slot->job, s->verbose ? slot->said : NULL);
-    ErrorKind kind = item->result.error.kind;
-    name_motion(&item->result.error, b->input[slot->item].path);
+    Error *error = &b->result[slot->item].error;
+    ErrorKind kind = error->kind;
+    name_motion(error, b->input[slot->item].path);
     if (slot->said) {
         if (slot->notes && !s->quiet) notes_print(slot->notes, b->input[slot->item].path, slot->said);
-        if (kind && kind != ERR_INTERRUPTED) error_print(&item->result.error, slot->said);
+        if (kind && kind != ERR_INTERRUPTED) error_print(error, slot->said);
         fclose(slot->said);
     }
     arena_reset(&slot->arena);
@@ -125,7 +124,7 @@ static void finish(Batch *b, Slot *slot) {
     b->progress.failed += kind > ERR_CHECK;
     b->progress.finished += item->weight;
     speak(b);
-    progress_draw(&b->progress, under_way(b));
+    progress_draw(&b->progress, weight_under_way(b));
     pthread_cond_broadcast(&b->change);
     pthread_mutex_unlock(&b->lock);
 }
@@ -133,15 +132,14 @@ static void finish(Batch *b, Slot *slot) {
 /* Has an earlier run finished the motion, from the same inputs with the same options? */
 static bool is_finished(Batch *b, Slot *slot, const RecordKey *key) {
     const Settings *s = b->wardrobe->settings;
-    Item *item = &b->item[slot->item];
-    JobResult *result = &item->result;
+    JobResult *result = &b->result[slot->item];
     char folder[OUTPUT_PATH_MAX];
     Record record;
     int n = snprintf(folder, sizeof folder, "%s/%s", s->output, b->input[slot->item].name);
     if (!s->resume || n >= (int)sizeof folder || !record_read(folder, key, &slot->arena, &record, &result->error))
         return false;
-    item->rows = strdup(record.rows);
-    if (!item->rows) return !error_set(&result->error, ERR_INTERNAL, "out of memory for the summary");
+    result->recorded = strdup(record.rows);
+    if (!result->recorded) return !error_set(&result->error, ERR_INTERNAL, "out of memory for the summary");
     if (s->strict && record.residual_frames > 0)
         error_at(&result->error, ERR_CHECK, (Place){.file = b->input[slot->item].path},
                  "the body shows through in %d of %d frames", record.residual_frames, record.frames);
@@ -153,7 +151,7 @@ static bool open_job(Batch *b, Worker *w, Slot *slot) {
     const Settings *s = b->wardrobe->settings;
     const Input *input = &b->input[slot->item];
     Item *item = &b->item[slot->item];
-    JobResult *result = &item->result;
+    JobResult *result = &b->result[slot->item];
     JobOrder order = {.wardrobe = b->wardrobe, .input = input, .key = {.options = b->options}, .workers = b->nworkers,
                       .press = &b->press};
     slot->job = NULL;
@@ -206,7 +204,7 @@ static Slot *next_task(Batch *b, Worker *w, int *chunk) {
 }
 
 /* From now on others may help. */
-static void show(Batch *b, Slot *slot) {
+static void offer(Batch *b, Slot *slot) {
     pthread_mutex_lock(&b->lock);
     slot->state = SLOT_OPEN;
     b->item[slot->item].frames = job_frames(slot->job);
@@ -236,7 +234,7 @@ static void work(void *context, int index, int thread) {
             continue;
         }
         if (chunk < 0) {
-            show(b, slot);
+            offer(b, slot);
             chunk = 0;
         }
         Watcher watcher = {b, &b->item[slot->item]};
@@ -260,87 +258,29 @@ static double look_at_folders(Batch *b) {
     return weight;
 }
 
-/* A run that found its folders there already and dressed nothing has nothing to tell, and the
-   summary that is there is theirs. */
+/* A run that found its folders there already and dressed nothing has no summary to write: the one that
+   is there is theirs. */
 static bool is_refused(const Batch *b) {
     bool refused = false, dressed = false;
     for (int i = 0; i < b->count; i++) {
         refused = refused || (b->item[i].exists && !b->wardrobe->settings->resume);
-        dressed = dressed || b->item[i].result.error.kind <= ERR_CHECK;
+        dressed = dressed || b->result[i].error.kind <= ERR_CHECK;
     }
     return refused && !dressed;
-}
-
-static bool write_summary(const Batch *b, Error *e) {
-    char path[OUTPUT_PATH_MAX];
-    const Settings *s = b->wardrobe->settings;
-    StatsFile f;
-    if (is_refused(b)) return true;
-    if (!summary_path(s, path, e) || !stats_open(&f, path, TABLE_SUMMARY, !s->no_times, e)) return false;
-    for (int i = 0; i < b->count; i++) {
-        const Item *item = &b->item[i];
-        if (summary_add_motion(&f, b->wardrobe, &b->input[i], &item->result, item->rows, e)) continue;
-        stats_abandon(&f);
-        return false;
-    }
-    if (!summary_end(&f, s, b->total, e)) return stats_abandon(&f), false;
-    return stats_close(&f, e) && sync_folder(s->output, e);
-}
-
-static void print_stages(const Batch *b, double elapsed) {
-    static const char *const names[STAGE_COUNT] = {"open and fit", "pose", "global shape", "test",
-                                                   "push",         "mesh", "write",        "other"};
-    double sum[STAGE_COUNT] = {0}, whole = 0;
-    for (int i = 0; i < b->count; i++)
-        for (int k = 0; k < STAGE_COUNT; k++) sum[k] += b->item[i].result.seconds[k];
-    for (int k = 0; k < STAGE_COUNT; k++) whole += sum[k];
-    for (int k = 0; k < STAGE_COUNT; k++)
-        fprintf(stderr, "  %-14s %9.3f s  %5.1f %%\n", names[k], sum[k], whole > 0 ? 100 * sum[k] / whole : 0);
-    fprintf(stderr, "  %-14s %9.3f s  on %d thread%s in %.3f s\n", "together", whole, b->nworkers,
-            b->nworkers == 1 ? "" : "s", elapsed);
-}
-
-static void print_bytes(double bytes) {
-    if (bytes >= 1e9) fprintf(stderr, "%.2f GB", bytes / 1e9);
-    else if (bytes >= 1e6) fprintf(stderr, "%.1f MB", bytes / 1e6);
-    else fprintf(stderr, "%.1f kB", bytes / 1e3);
-}
-
-static void print_end(const Batch *b) {
-    long long frames = 0, residual = 0, bytes = 0;
-    int done = 0, before = 0;
-    double elapsed = clock_seconds() - b->progress.started;
-    for (int i = 0; i < b->count; i++) {
-        const JobResult *r = &b->item[i].result;
-        done += r->error.kind <= ERR_CHECK;
-        before += b->item[i].rows != NULL;
-        frames += r->frames;
-        residual += r->residual_frames;
-        bytes += r->bytes;
-    }
-    if (b->wardrobe->settings->verbose) print_stages(b, elapsed);
-    if (b->count == 1 && done + frames == 0) return; /* the error has said it all */
-    fprintf(stderr, "%d of %d motion%s dressed", done, b->count, b->count == 1 ? "" : "s");
-    if (before) fprintf(stderr, " (%d before)", before);
-    if (frames) {
-        fprintf(stderr, ", %lld frame%s, %lld with residuals, ", frames, frames == 1 ? "" : "s", residual);
-        print_bytes((double)bytes);
-        fprintf(stderr, " in %.1f s (%.0f frames/s)", elapsed, (double)frames / elapsed);
-    }
-    fputc('\n', stderr);
 }
 
 static bool prepare(Batch *b, Arena *arena, Error *e) {
     const Settings *s = b->wardrobe->settings;
     b->nworkers = s->jobs ? s->jobs : thread_count();
     b->item = ARENA_NEW(arena, Item, b->count, e);
+    b->result = ARENA_NEW(arena, JobResult, b->count, e);
     b->worker = ARENA_NEW(arena, Worker, b->nworkers, e);
     b->slot = ARENA_NEW(arena, Slot, b->nworkers, e);
     SummaryRow *rows = ARENA_NEW(arena, SummaryRow, (size_t)b->count * (size_t)b->wardrobe->ngarments, e);
-    if (!b->item || !b->worker || !b->slot || !rows || !record_options(s, &b->options, e) ||
+    if (!b->item || !b->result || !b->worker || !b->slot || !rows || !record_options(s, &b->options, e) ||
         !press_open(&b->press, b->nworkers, &b->lock, &b->change, arena, e))
         return false;
-    for (int i = 0; i < b->count; i++) b->item[i].result.row = rows + (size_t)i * (size_t)b->wardrobe->ngarments;
+    for (int i = 0; i < b->count; i++) b->result[i].row = rows + (size_t)i * (size_t)b->wardrobe->ngarments;
     for (int i = 0; i < b->nworkers; i++)
         b->worker[i].lane.arena.limit = b->slot[i].arena.limit = (size_t)s->max_memory << 20;
     progress_start(&b->progress, s, b->count, look_at_folders(b));
@@ -353,34 +293,25 @@ static void clean_up(Batch *b) {
         arena_free(&b->slot[i].arena);
     }
     press_close(&b->press);
-    for (int i = 0; i < b->count && b->item; i++) free(b->item[i].rows);
+    for (int i = 0; i < b->count && b->result; i++) free(b->result[i].recorded);
     pthread_cond_destroy(&b->change);
     pthread_mutex_destroy(&b->lock);
 }
 
-/* One run at a time may write a summary: the file beside it is locked as long as the run lasts. */
-static bool lock_summary(const Settings *s, Lock *lock, Error *e) {
-    char path[OUTPUT_PATH_MAX], name[OUTPUT_PATH_MAX + 8];
-    if (!summary_path(s, path, e) || !output_folder(s->output, e)) return false;
-    char *slash = strrchr(path, '/');
-    *slash = 0;
-    snprintf(name, sizeof name, "%s/.%s.lock", path, slash + 1);
-    return lock_file(lock, name, e);
-}
-
 ErrorKind batch_run(const Wardrobe *wardrobe, const Input *input, int count, int total, Arena *arena, Error *e) {
-    Batch b = {.wardrobe = wardrobe, .input = input, .count = count, .total = total};
+    Batch b = {.wardrobe = wardrobe, .input = input, .count = count};
     Lock lock = {0};
     ErrorKind worst = ERR_NONE;
     pthread_mutex_init(&b.lock, NULL);
     pthread_cond_init(&b.change, NULL);
-    bool good = lock_summary(wardrobe->settings, &lock, e) && prepare(&b, arena, e) &&
+    bool good = summary_lock(wardrobe->settings, &lock, e) && prepare(&b, arena, e) &&
                 thread_each(b.nworkers, b.nworkers, work, &b, e);
     progress_end(&b.progress);
-    if (!good || !write_summary(&b, e)) worst = e->kind;
-    if (good && !wardrobe->settings->quiet) print_end(&b);
+    if (!good || !(is_refused(&b) || summary_write(wardrobe, input, b.result, count, total, e))) worst = e->kind;
+    double seconds = clock_seconds() - b.progress.started;
+    if (good) report_print(wardrobe->settings, b.result, count, b.nworkers, seconds, stderr);
     for (int i = 0; good && i < count; i++)
-        if (b.item[i].result.error.kind > worst) worst = b.item[i].result.error.kind;
+        if (b.result[i].error.kind > worst) worst = b.result[i].error.kind;
     if (stop_requested()) {
         worst = ERR_INTERRUPTED;
         error_set(e, worst, "interrupted; what is written is whole, and the same command with --resume goes on");

@@ -1,6 +1,6 @@
-/* kitsuke draw: frames as pictures, side by side on one sheet. Every frame that is drawn is dressed
+/* kitsuke draw: frames as pictures, side by side on one page. Every frame that is drawn is dressed
    first, once for each cell, and kept; only then is it known how large the view must be, so that
-   one camera serves the whole sheet. */
+   one camera serves the whole page. */
 #include <string.h>
 
 #include "app/commands.h"
@@ -29,7 +29,7 @@ typedef struct {
     Picture *picture;         /* frame by frame, cell by cell */
     Vec3 heading;             /* of the figure in the first of them */
     Vec3 stand;               /* where it stands there */
-} Sheet;
+} Page;
 
 static bool check_needed(const Settings *s, Error *e) {
     if (s->inputs.count == 0) return error_set(e, ERR_USAGE, "nothing to draw: name a motion");
@@ -42,23 +42,23 @@ static bool check_needed(const Settings *s, Error *e) {
     return true;
 }
 
-static bool open_sheet(Sheet *sh, Notes *notes, Error *e) {
-    const Settings *s = sh->settings;
+static bool open_page(Page *p, Notes *notes, Error *e) {
+    const Settings *s = p->settings;
     const char *path = s->inputs.item[0];
-    const Drawing *d = &sh->drawing;
-    if (!wearer_open(&sh->wardrobe, path, 1, sh->arena, notes, &sh->wearer, e) ||
-        !drawing_frames(d, path, sh->wearer.motion.nframes, sh->arena, &sh->frame, &sh->nframes, e))
+    const Drawing *d = &p->drawing;
+    if (!wearer_open(&p->wardrobe, path, 1, p->arena, notes, &p->wearer, e) ||
+        !drawing_frames(d, path, p->wearer.motion.nframes, p->arena, &p->frame, &p->nframes, e))
         return false;
     for (int c = 0; c < d->ncells; c++) {
         DressOptions options = {.method = d->cell[c].method, .split = d->cell[c].split};
         options.detail = s->detail;
         options.depth = s->depth;
-        if (!wearer_put_on(&sh->wearer, &sh->wardrobe, &options, sh->arena, &sh->dresser[c], e)) return false;
+        if (!wearer_put_on(&p->wearer, &p->wardrobe, &options, p->arena, &p->dresser[c], e)) return false;
     }
-    sh->npictures = sh->nframes * d->ncells;
-    sh->picture = ARENA_NEW(sh->arena, Picture, sh->npictures, e);
-    FrameSpan span = {sh->frame[0], sh->frame[sh->nframes - 1], 1};
-    return sh->picture && take_open(&sh->wearer.motion, &sh->wearer.figure, &span, 0, sh->arena, &sh->take, e);
+    p->npictures = p->nframes * d->ncells;
+    p->picture = ARENA_NEW(p->arena, Picture, p->npictures, e);
+    FrameSpan span = {p->frame[0], p->frame[p->nframes - 1], 1};
+    return p->picture && take_open(&p->wearer.motion, &p->wearer.figure, &span, 0, p->arena, &p->take, e);
 }
 
 /* A copy of what the next frame overwrites, moved by `shift`. */
@@ -96,29 +96,29 @@ static bool keep_points(const Dresser *d, LeafKind kind, int nleaves, Vec3 shift
 }
 
 /* One garment of a picture; adds its leaves to *nleaves. */
-static bool dress(Sheet *sh, int cell, int g, const TakeFrame *frame, Vec3 shift, SceneSurface *out, int *nleaves,
+static bool dress(Page *p, int cell, int g, const TakeFrame *frame, Vec3 shift, SceneSurface *out, int *nleaves,
                   Error *e) {
-    Dresser *d = sh->dresser[cell][g];
-    unsigned show = sh->drawing.cell[cell].show;
+    Dresser *d = p->dresser[cell][g];
+    unsigned show = p->drawing.cell[cell].show;
     Mesh mesh;
     FrameStats stats;
-    dresser_frame(d, &sh->wearer.posed, frame->dt, frame->tie, &mesh, &stats);
+    dresser_frame(d, &p->wearer.posed, frame->dt, frame->tie, &mesh, &stats);
     LeafKind kind = show & SHOW_CELLS ? LEAVES_CELLS : LEAVES_BY_RULE;
     int n = dresser_leaves(d, kind, NULL, 0);
     *nleaves += n;
     out->colour = 1 + g;
-    return keep_mesh(&mesh, shift, sh->arena, &out->mesh, e) &&
-           (!(show & SHOW_PATCHES) || keep_borders(d, kind, mesh.nedges, sh->arena, out, e)) &&
-           (!(show & SHOW_POINTS) || keep_points(d, kind, n, shift, sh->arena, out, e));
+    return keep_mesh(&mesh, shift, p->arena, &out->mesh, e) &&
+           (!(show & SHOW_PATCHES) || keep_borders(d, kind, mesh.nedges, p->arena, out, e)) &&
+           (!(show & SHOW_POINTS) || keep_points(d, kind, n, shift, p->arena, out, e));
 }
 
 /* "(b) frame 12, uniform: 32 patches", as far as there is anything to tell apart. */
-static void name_picture(const Sheet *sh, int number, int frame, int nleaves, Picture *out) {
-    const DrawingCell *cell = &sh->drawing.cell[number % sh->drawing.ncells];
+static void name_picture(const Page *p, int number, int frame, int nleaves, Picture *out) {
+    const DrawingCell *cell = &p->drawing.cell[number % p->drawing.ncells];
     char *text = out->title;
     size_t size = sizeof out->title, n = 0;
-    if (sh->npictures > 1 && number < 26) n += (size_t)snprintf(text, size, "(%c) ", 'a' + number);
-    if (sh->nframes > 1) n += (size_t)snprintf(text + n, size - n, "frame %d%s", frame, cell->title[0] ? ", " : "");
+    if (p->npictures > 1 && number < 26) n += (size_t)snprintf(text, size, "(%c) ", 'a' + number);
+    if (p->nframes > 1) n += (size_t)snprintf(text + n, size - n, "frame %d%s", frame, cell->title[0] ? ", " : "");
     n += (size_t)snprintf(text + n, size - n, "%s", cell->title);
     if (cell->show && cell->title[0])
         snprintf(text + n, size - n, ": %d %s", nleaves, cell->show & SHOW_CELLS ? "cells" : "patches");
@@ -130,41 +130,41 @@ static Vec3 stand_of(const Wearer *w) {
     return vec(p.x, 0, p.z);
 }
 
-static bool keep_frame(Sheet *sh, int number, const TakeFrame *frame, Error *e) {
-    const Wearer *w = &sh->wearer;
-    body_frame_pose(&sh->wearer.posed, &frame->pose);
+static bool keep_frame(Page *p, int number, const TakeFrame *frame, Error *e) {
+    const Wearer *w = &p->wearer;
+    body_frame_pose(&p->wearer.posed, &frame->pose);
     if (number == 0) {
-        sh->heading = mat_column(frame->pose.bone[ROLE_PELVIS].r, 2);
-        sh->stand = stand_of(w);
+        p->heading = mat_column(frame->pose.bone[ROLE_PELVIS].r, 2);
+        p->stand = stand_of(w);
     }
-    Vec3 shift = sh->settings->draw.follow ? vec_sub(sh->stand, stand_of(w)) : vec(0, 0, 0);
+    Vec3 shift = p->settings->draw.follow ? vec_sub(p->stand, stand_of(w)) : vec(0, 0, 0);
     Mesh skin = wearer_skin(w);
-    for (int c = 0; c < sh->drawing.ncells; c++) {
-        int k = number * sh->drawing.ncells + c, nleaves = 0;
-        Scene *scene = &sh->picture[k].scene;
+    for (int c = 0; c < p->drawing.ncells; c++) {
+        int k = number * p->drawing.ncells + c, nleaves = 0;
+        Scene *scene = &p->picture[k].scene;
         scene->surface[0].is_closed = true;
-        if (!keep_mesh(&skin, shift, sh->arena, &scene->surface[0].mesh, e)) return false;
-        for (int g = 0; g < sh->wardrobe.ngarments; g++)
-            if (!dress(sh, c, g, frame, shift, &scene->surface[1 + g], &nleaves, e)) return false;
-        scene->count = 1 + sh->wardrobe.ngarments;
-        name_picture(sh, k, frame->number, nleaves, &sh->picture[k]);
+        if (!keep_mesh(&skin, shift, p->arena, &scene->surface[0].mesh, e)) return false;
+        for (int g = 0; g < p->wardrobe.ngarments; g++)
+            if (!dress(p, c, g, frame, shift, &scene->surface[1 + g], &nleaves, e)) return false;
+        scene->count = 1 + p->wardrobe.ngarments;
+        name_picture(p, k, frame->number, nleaves, &p->picture[k]);
     }
     return true;
 }
 
 /* Frames that are not drawn are not dressed either, as with `dress --frames`. */
-static bool keep_frames(Sheet *sh, Error *e) {
+static bool keep_frames(Page *p, Error *e) {
     TakeFrame frame;
     double last_time = 0;
     bool afresh = false;
-    for (int number = 0; number < sh->nframes && take_next(sh->take, &frame, e);) {
+    for (int number = 0; number < p->nframes && take_next(p->take, &frame, e);) {
         afresh = afresh || frame.tie == TIE_AFRESH;
-        if (frame.number != sh->frame[number]) continue;
+        if (frame.number != p->frame[number]) continue;
         frame.dt = number ? frame.time - last_time : 0;
         if (afresh && frame.tie == TIE_GOES_ON) frame.tie = TIE_AFRESH;
         last_time = frame.time;
         afresh = false;
-        if (!keep_frame(sh, number++, &frame, e)) return false;
+        if (!keep_frame(p, number++, &frame, e)) return false;
     }
     return e->kind == ERR_NONE;
 }
@@ -176,13 +176,13 @@ static double centre_of(double low, double high, double wish, double size) {
     return size >= high - low ? 0.5 * (low + high) : clamp(wish, low + 0.5 * size, high - 0.5 * size);
 }
 
-static View fit_view(const Sheet *sh) {
-    const DrawSettings *s = &sh->settings->draw;
-    Mat3 turn = scene_view(sh->heading, sh->drawing.azimuth, sh->drawing.elevation);
+static View fit_view(const Page *p) {
+    const DrawSettings *s = &p->settings->draw;
+    Mat3 turn = scene_view(p->heading, p->drawing.azimuth, p->drawing.elevation);
     Box all = box_empty(), cloth = box_empty();
-    for (int k = 0; k < sh->npictures; k++) {
-        scene_reach(&sh->picture[k].scene, turn, 0, &all);
-        scene_reach(&sh->picture[k].scene, turn, 1, &cloth);
+    for (int k = 0; k < p->npictures; k++) {
+        scene_reach(&p->picture[k].scene, turn, 0, &all);
+        scene_reach(&p->picture[k].scene, turn, 1, &cloth);
     }
     double zoom = s->zoom > 0 ? s->zoom : 1, size = s->size ? s->size : SIZE_DEFAULT;
     double width = (all.high.x - all.low.x) / zoom, height = (all.high.y - all.low.y) / zoom;
@@ -194,9 +194,9 @@ static View fit_view(const Sheet *sh) {
                   .width = ceil(width * scale) + 2 * MARGIN, .height = ceil(height * scale) + 2 * MARGIN};
 }
 
-static int count_columns(const Sheet *sh) {
-    int asked = sh->settings->draw.columns, n = sh->drawing.ncells > 1 ? sh->drawing.ncells : sh->npictures;
-    if (asked) return asked < sh->npictures ? asked : sh->npictures;
+static int count_columns(const Page *p) {
+    int asked = p->settings->draw.columns, n = p->drawing.ncells > 1 ? p->drawing.ncells : p->npictures;
+    if (asked) return asked < p->npictures ? asked : p->npictures;
     int rows = (n + ROW_MAX - 1) / ROW_MAX;
     return (n + rows - 1) / rows;
 }
@@ -206,48 +206,55 @@ static const char *file_name(const char *path) {
     return slash ? slash + 1 : path;
 }
 
-static bool write_sheet(const Sheet *sh, Error *e) {
-    View view = fit_view(sh);
+/* Of the scene that has the most. */
+static int count_dots(const Page *p) {
+    int most = 0;
+    for (int k = 0; k < p->npictures; k++) {
+        const Scene *scene = &p->picture[k].scene;
+        int n = 0;
+        for (int s = 0; s < scene->count; s++) n += scene->surface[s].ndots;
+        if (n > most) most = n;
+    }
+    return most;
+}
+
+static bool write_page(const Page *p, Error *e) {
+    View view = fit_view(p);
     Canvas canvas;
     Output out;
-    int columns = count_columns(sh), rows = (sh->npictures + columns - 1) / columns, most = 0;
-    double below = sh->picture[0].title[0] ? TITLE_ROOM : 0;
-    for (int k = 0; k < sh->npictures; k++)
-        for (int s = 0, n = 0; s < sh->picture[k].scene.count; s++) {
-            n += sh->picture[k].scene.surface[s].ndots;
-            if (n > most) most = n;
-        }
-    if (!canvas_reserve(&canvas, view.width, view.height, most, sh->arena, e)) return false;
-    if (!output_open(&out, sh->settings->output, e)) return false;
+    int columns = count_columns(p), rows = (p->npictures + columns - 1) / columns;
+    double below = p->picture[0].title[0] ? TITLE_ROOM : 0;
+    if (!canvas_reserve(&canvas, view.width, view.height, count_dots(p), p->arena, e)) return false;
+    if (!output_open(&out, p->settings->output, e)) return false;
     svg_open(out.file, columns * (view.width + GAP) - GAP, rows * (view.height + below),
-             file_name(sh->settings->inputs.item[0]));
-    for (int k = 0; k < sh->npictures; k++) {
+             file_name(p->settings->inputs.item[0]));
+    for (int k = 0; k < p->npictures; k++) {
         double left = k % columns * (view.width + GAP), top = k / columns * (view.height + below);
-        scene_draw(&canvas, &sh->picture[k].scene, &view.camera, left, top, out.file);
-        if (sh->picture[k].title[0])
-            svg_text(out.file, left + view.width / 2, top + view.height + 14, TITLE, SVG_MIDDLE, sh->picture[k].title);
+        scene_draw(&canvas, &p->picture[k].scene, &view.camera, left, top, out.file);
+        if (p->picture[k].title[0])
+            svg_text(out.file, left + view.width / 2, top + view.height + 14, TITLE, SVG_MIDDLE, p->picture[k].title);
     }
     svg_close(out.file);
     return output_close(&out, e);
 }
 
-static bool draw(Sheet *sh, Notes *notes, Error *e) {
-    return drawing_read(sh->settings, sh->arena, &sh->drawing, e) && check_needed(sh->settings, e) &&
-           wardrobe_read(sh->settings, sh->arena, &sh->wardrobe, e) && open_sheet(sh, notes, e) &&
-           keep_frames(sh, e) && write_sheet(sh, e);
+static bool draw(Page *p, Notes *notes, Error *e) {
+    return drawing_read(p->settings, p->arena, &p->drawing, e) && check_needed(p->settings, e) &&
+           wardrobe_read(p->settings, p->arena, &p->wardrobe, e) && open_page(p, notes, e) &&
+           keep_frames(p, e) && write_page(p, e);
 }
 
 ErrorKind cmd_draw(const Settings *s, Error *e) {
     Arena arena = {0};
     Notes notes = {0};
-    Sheet *sh = ARENA_NEW(&arena, Sheet, 1, e);
-    if (sh) {
-        *sh = (Sheet){.settings = s, .arena = &arena};
-        bool good = draw(sh, &notes, e);
-        if (sh->take) take_notes(sh->take, &notes);
+    Page *p = ARENA_NEW(&arena, Page, 1, e);
+    if (p) {
+        *p = (Page){.settings = s, .arena = &arena};
+        bool good = draw(p, &notes, e);
+        if (p->take) take_notes(p->take, &notes);
         if (good && !s->quiet) notes_print(&notes, s->inputs.item[0], stderr);
-        take_close(sh->take);
-        wearer_close(&sh->wearer);
+        take_close(p->take);
+        wearer_close(&p->wearer);
     }
     arena_free(&arena);
     return e->kind;

@@ -66,7 +66,7 @@ static bool read_summary(Merge *m, const char *path, Summary *s) {
     if (!s->motion) return false;
     split(rows, s->motion);
     last = s->motion[s->count];
-    bool is_shard = sscanf(last, SHARD_LINE, &s->shard.k, &s->shard.n, &s->total) == 3;
+    bool is_shard = sscanf(last, SUMMARY_SHARD, &s->shard.k, &s->shard.n, &s->total) == 3;
     if (strncmp(text.data, "# kitsuke summary", 17) != 0 || (*last && !is_shard))
         return error_set(m->e, ERR_INPUT, "'%s' is no summary of kitsuke", path);
     if (!is_shard) return true;
