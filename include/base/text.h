@@ -21,6 +21,9 @@ typedef struct {
    unreadable, binary or too large file and for a directory. */
 MUST_CHECK bool text_read(const char *path, size_t limit, Arena *arena, Text *out, Error *e);
 
+/* The same for any bytes, as they stand. One more, which does not count in size, is NUL. */
+MUST_CHECK bool text_read_raw(const char *path, size_t limit, Arena *arena, Text *out, Error *e);
+
 /* A place in a Text. Copy it to go back. */
 typedef struct {
     const Text *text;
@@ -33,6 +36,9 @@ Cursor text_start(const Text *text);
 
 /* The place of `at`, a pointer into the cursor's current line, for error_at. */
 Place text_place(const Cursor *c, const char *at);
+
+/* Does the line end here? A Text's last byte is followed by NUL. */
+static inline bool text_is_end(char c) { return c == '\n' || c == '\r' || c == 0; }
 
 /* Line-oriented reading (garment, body, job, roles). A line is words separated by blanks,
    a '#' at the start of a word begins a comment; CR, LF and CRLF end a line. */
@@ -69,6 +75,9 @@ const char *text_number(const char *s, const char *end, double *out);
 /* x in the fewest digits that read back as x; returns `out`. Round numbers stay plain: 20, not 2e+01. */
 enum { TEXT_SHORTEST = 32 };
 const char *text_shortest(double x, char out[TEXT_SHORTEST]);
+
+/* Does a file's name end in `ending`, such as ".bvh" or ".BVH", with something in front of it? */
+bool text_ends_in(const char *name, const char *ending);
 
 /* Edit distance for "did you mean", capped at 9. */
 int text_distance(const char *a, const char *b);

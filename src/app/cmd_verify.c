@@ -51,11 +51,6 @@ static void complain(Run *r, const Error *e) {
     error_print(e, stderr);
 }
 
-static bool has_ending(const char *path, const char *ending) {
-    size_t n = strlen(path), m = strlen(ending);
-    return n > m && strcmp(path + n - m, ending) == 0;
-}
-
 /* Our own files tell their unit in the first line. */
 static double unit_of(const Text *text, double fallback) {
     static const char head[] = "# kitsuke: Y up, ";
@@ -69,7 +64,7 @@ static bool read_mesh(Run *r, const char *path, Mesh *out, double *unit, Error *
     Arena *arena = &r->frame->arena;
     Text text;
     *unit = 1;
-    if (has_ending(path, ".drc")) {
+    if (text_ends_in(path, ".drc")) {
         if (!drc_read(path, arena, out, e)) return false;
     } else {
         if (!text_read(path, OBJ_LIMIT, arena, &text, e) || !obj_parse(&text, arena, out, e)) return false;

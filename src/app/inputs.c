@@ -39,12 +39,7 @@ static bool add(Search *s, const char *path, const char *below, bool is_empty) {
     return true;
 }
 
-static bool has_ending(const char *name, const char *ending) {
-    size_t n = strlen(name), k = strlen(ending);
-    return n > k && strcasecmp(name + n - k, ending) == 0;
-}
-
-static bool is_motion_name(const char *name) { return has_ending(name, ".bvh") || has_ending(name, ".amc"); }
+static bool is_motion_name(const char *name) { return text_ends_in(name, ".bvh") || text_ends_in(name, ".amc"); }
 
 /* Links to files are followed, links to folders are not: they could lead round in a circle. A folder that cannot be
    read stays in the list. */

@@ -21,19 +21,17 @@ static bool wrong(const Reader *r, const Line *line, const char *at, const char 
     return error_at(r->e, ERR_USAGE, text_place(&line->at, at), "%s", text);
 }
 
-static bool is_line_end(char c) { return c == '\n' || c == '\r' || c == 0; }
-
 /* "..." from its opening quote on, unescaped. NULL with an error. */
 static char *quoted(const Reader *r, const Line *line) {
     static const char letters[] = "\"\\nrt", meant[] = "\"\\\n\r\t";
     const char *at = line->word[1] + 1;
     size_t n = 0;
-    while (!is_line_end(at[n])) n++;
+    while (!text_is_end(at[n])) n++;
     char *out = ARENA_NEW(r->arena, char, n + 1, r->e), *to = out;
     if (!out) return NULL;
     for (; *at != '"'; at++) {
         const char *letter = *at == '\\' && at[1] ? strchr(letters, at[1]) : NULL;
-        if (is_line_end(*at)) return wrong(r, line, at, "expected '\"' at the end of the value"), NULL;
+        if (text_is_end(*at)) return wrong(r, line, at, "expected '\"' at the end of the value"), NULL;
         if (*at == '\\' && !letter) return wrong(r, line, at, "expected \\\", \\\\, \\n, \\r or \\t"), NULL;
         *to++ = letter ? meant[letter - letters] : *at;
         at += letter != NULL;
@@ -41,7 +39,7 @@ static char *quoted(const Reader *r, const Line *line) {
     at++;
     const char *end = at;
     while (*at == ' ' || *at == '\t') at++;
-    if (!is_line_end(*at) && (*at != '#' || at == end))
+    if (!text_is_end(*at) && (*at != '#' || at == end))
         return wrong(r, line, at, "expected nothing behind the closing '\"'"), NULL;
     return out;
 }

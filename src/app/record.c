@@ -54,8 +54,7 @@ static bool add_skeletons(Digest *d, const char *motion, Error *e) {
     Digest sum = 0;
     bool good = true;
     for (struct dirent *entry; folder && good && (entry = readdir(folder));) {
-        size_t k = strlen(entry->d_name);
-        if (k < 5 || strcasecmp(entry->d_name + k - 4, ".asf") != 0) continue;
+        if (!text_ends_in(entry->d_name, ".asf")) continue;
         Digest one = digest_start();
         digest_text(&one, entry->d_name);
         snprintf(path, sizeof path, "%.*s%s", n, motion, entry->d_name);

@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 /* Reads all of f, growing by doubling since pipes have no size. */
@@ -36,7 +37,7 @@ static char *read_all(FILE *f, const char *path, size_t limit, size_t *size, Err
     return NULL;
 }
 
-bool text_read(const char *path, size_t limit, Arena *arena, Text *out, Error *e) {
+bool text_read_raw(const char *path, size_t limit, Arena *arena, Text *out, Error *e) {
     bool standard = strcmp(path, "-") == 0;
     FILE *f = standard ? stdin : fopen(path, "rb");
     if (!f) return error_set(e, ERR_INPUT, "cannot open '%s': %s", path, strerror(errno));
@@ -49,29 +50,32 @@ bool text_read(const char *path, size_t limit, Arena *arena, Text *out, Error *e
     char *data = read_all(f, path, limit, &size, e);
     if (!standard) fclose(f);
     if (!data) return false;
-    size_t skip = size >= 3 && memcmp(data, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
-    char *copy = arena_text(arena, data + skip, size - skip, e);
+    *out = (Text){standard ? "<stdin>" : path, arena_text(arena, data, size, e), size};
     free(data);
-    if (!copy) return false;
-    *out = (Text){standard ? "<stdin>" : path, copy, size - skip};
-    if (memchr(copy, 0, out->size)) return error_set(e, ERR_INPUT, "'%s' is a binary file, not text", path);
-    return true;
+    return out->data != NULL;
+}
+
+bool text_read(const char *path, size_t limit, Arena *arena, Text *out, Error *e) {
+    if (!text_read_raw(path, limit, arena, out, e)) return false;
+    if (strncmp(out->data, "\xEF\xBB\xBF", 3) == 0) {
+        out->data += 3;
+        out->size -= 3;
+    }
+    return !memchr(out->data, 0, out->size) || error_set(e, ERR_INPUT, "'%s' is a binary file, not text", path);
 }
 
 Cursor text_start(const Text *text) { return (Cursor){text, text->data, text->data, 1}; }
 
-static bool is_end(char c) { return c == '\n' || c == '\r' || c == 0; }
-
 Place text_place(const Cursor *c, const char *at) {
     const char *end = c->line_start;
-    while (!is_end(*end)) end++;
+    while (!text_is_end(*end)) end++;
     long column = at - c->line_start + 1;
     return (Place){c->text->name, c->line, (int)(column < INT_MAX ? column : INT_MAX), c->line_start,
                    (int)(end - c->line_start < INT_MAX ? end - c->line_start : INT_MAX)};
 }
 
 static void next_line(Cursor *c) {
-    while (!is_end(*c->at)) c->at++;
+    while (!text_is_end(*c->at)) c->at++;
     if (*c->at == '\r' && c->at[1] == '\n') c->at++;
     if (*c->at) c->at++;
     c->line_start = c->at;
@@ -82,7 +86,7 @@ bool text_line(Cursor *c, Line *line, Error *e) {
     while (*c->at) {
         line->at = *c;
         line->count = 0;
-        while (!is_end(*c->at)) {
+        while (!text_is_end(*c->at)) {
             if (*c->at == ' ' || *c->at == '\t') {
                 c->at++;
                 continue;
@@ -91,7 +95,7 @@ bool text_line(Cursor *c, Line *line, Error *e) {
             if (line->count == TEXT_WORDS_MAX)
                 return error_at(e, ERR_INPUT, text_place(c, c->at), "more than %d words in a line", TEXT_WORDS_MAX);
             const char *start = c->at;
-            while (!is_end(*c->at) && *c->at != ' ' && *c->at != '\t') c->at++;
+            while (!text_is_end(*c->at) && *c->at != ' ' && *c->at != '\t') c->at++;
             line->word[line->count] = start;
             line->length[line->count++] = (int)(c->at - start);
         }
@@ -183,6 +187,11 @@ const char *text_shortest(double x, char out[TEXT_SHORTEST]) {
         if (strtod(out, NULL) == x) break;
     }
     return out;
+}
+
+bool text_ends_in(const char *name, const char *ending) {
+    size_t n = strlen(name), k = strlen(ending);
+    return n > k && strcasecmp(name + n - k, ending) == 0;
 }
 
 int text_distance(const char *a, const char *b) {

@@ -25,10 +25,8 @@ typedef struct {
     bool all_uv, all_normal; /* every corner so far had one */
 } Reader;
 
-static bool is_line_end(char c) { return c == '\n' || c == '\r' || c == 0; }
-
 static const char *word_end(const char *s) {
-    while (!is_line_end(*s) && *s != ' ' && *s != '\t') s++;
+    while (!text_is_end(*s) && *s != ' ' && *s != '\t') s++;
     return s;
 }
 
@@ -45,14 +43,14 @@ static bool find_word(Cursor *c) {
         if (*s == ' ' || *s == '\t') c->at++;
         else if (*s == '\\' && s[1] == '\n') start_line(c, s + 2);
         else if (*s == '\\' && s[1] == '\r' && s[2] == '\n') start_line(c, s + 3);
-        else return !is_line_end(*s) && *s != '#';
+        else return !text_is_end(*s) && *s != '#';
     }
 }
 
 /* To the start of the next line; false at the end of the text. */
 static bool next_line(Cursor *c) {
     const char *s = c->at;
-    while (!is_line_end(*s)) s++;
+    while (!text_is_end(*s)) s++;
     if (*s == 0) return false;
     start_line(c, s + (s[0] == '\r' && s[1] == '\n' ? 2 : 1));
     return true;
@@ -174,7 +172,7 @@ static void start_group(Mesh *m, const char *name) {
 static bool read_group(Reader *r, Error *e) {
     const char *start = r->at.at, *end = start;
     if (find_word(&r->at)) start = end = r->at.at;
-    while (!is_line_end(*end) && *end != '#') end++;
+    while (!text_is_end(*end) && *end != '#') end++;
     while (end > start && (end[-1] == ' ' || end[-1] == '\t')) end--;
     char *name = arena_text(r->arena, start, (size_t)(end - start), e);
     if (name) start_group(r->mesh, name[0] ? name : "default");

@@ -3,8 +3,8 @@
 #include <dirent.h>
 #include <errno.h>
 #include <string.h>
-#include <strings.h>
 
+#include "base/text.h"
 #include "motion/source.h"
 
 /* Is `stem` the beginning of `name` up to a place where a word ends? 02 of 02_03, not of 021. */
@@ -20,7 +20,7 @@ typedef struct {
 
 static void consider(Search *found, const char *file, const char *name, size_t length) {
     size_t n = strlen(file);
-    if (n <= 4 || n >= sizeof found->best || strcasecmp(file + n - 4, ".asf") != 0) return;
+    if (n >= sizeof found->best || !text_ends_in(file, ".asf")) return;
     found->count++;
     size_t stem = is_prefix(file, n - 4, name, length) ? n - 4 : 0;
     /* Of a.asf and a.ASF take one whatever the order of the folder. */
