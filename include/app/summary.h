@@ -11,7 +11,8 @@
 /* The file of this run: OUT/summary.csv, or OUT/summary.K-of-N.csv of a shard. ERR_OUTPUT. */
 MUST_CHECK bool summary_path(const Settings *s, char path[OUTPUT_PATH_MAX], Error *e);
 
-/* Makes the output folder. One run at a time may write its summary: the lock lasts as long as the run. ERR_OUTPUT. */
+/* Makes the output folder, and locks the summary: one run at a time may write it. The lock lasts as long as the
+   run. ERR_OUTPUT. */
 MUST_CHECK bool summary_lock(const Settings *s, Lock *lock, Error *e);
 
 /* Writes the file: the rows of each motion in the order of the inputs. total: motions of the list that these are a shard of. ERR_OUTPUT. */
