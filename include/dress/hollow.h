@@ -7,9 +7,8 @@
 
 /* What touches the cloth, for each limb. */
 typedef struct {
-    unsigned parts[LIMBS]; /* its bare parts, bits 1 << part; 0 if it touches nothing */
+    unsigned parts[LIMBS]; /* its bare parts that press, bits 1 << part; 0 if it touches nothing */
     Vec3 way[LIMBS];       /* the direction in which it presses, unit */
-    Box before[LIMBS];     /* holds all cloth that it may press in */
 } Touch;
 
 Touch touch_find(const Push *p);
@@ -22,38 +21,36 @@ static inline bool limb_is_bare(const Push *p, int part) {
     return !(p->field.lattice->fit->collide & part_bit(p->body, part));
 }
 
-/* A vertex that a limb presses in, and the hollow round it. */
+/* Private. A vertex of a limb's skin, and how far along the way cloth is that is behind it, metres. */
 typedef struct {
     Vec3 at;
-    double depth, radius; /* of the hollow, metres */
-} Presser;
+    double deep;
+} HollowPoint;
 
-/* Pressers of vertices that follow each other: the box round them, and the largest depth and radius. */
-enum { PRESSERS_A_BLOCK = 16 };
+/* Private. Points that follow each other: the ball round them, and the deepest. */
+enum { HOLLOW_BLOCK = 16 };
 typedef struct {
-    const Presser *presser;
+    const HollowPoint *point;
     int n;
-    Box box;
-    double deepest, radius;
-} PresserBlock;
+    Vec3 middle;
+    double radius, deepest;
+} HollowBlock;
 
-/* The hollow of a limb: the deepest of its pressers' hollows everywhere. */
+/* The hollow of a limb. */
 typedef struct {
     Vec3 way;
-    Presser *presser;
-    int npressers;
-    PresserBlock *block;
-    int nblocks;
-    Box reach;
+    double wide, cap;     /* metres: its radius where it is not deep, and the most that it may be deep */
+    HollowPoint *point;
+    HollowBlock *block, all;
+    int npoints, nblocks;
 } Hollow;
 
-MUST_CHECK bool hollow_reserve(Hollow *h, const Lattice *lattice, Arena *arena, Error *e);
+MUST_CHECK bool hollow_reserve(Hollow *h, Arena *arena, Error *e);
 
-/* Finds what a limb that touches presses in, as far as the own parts leave room. out_of_reach[v] becomes true where the
-   cap keeps vertex v from going behind the limb. */
-void hollow_find(Hollow *h, const Push *p, const Touch *t, Limb limb, bool *out_of_reach);
+/* Begins with a limb. */
+void hollow_find(Hollow *h, const Push *p, const Touch *t, Limb limb);
 
-/* How deep the hollow is at a vertex, metres. */
+/* How deep its hollow is at a vertex, metres: up to the cap. */
 double hollow_depth(const Hollow *h, const Push *p, int vertex);
 
 #endif

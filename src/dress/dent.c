@@ -33,7 +33,7 @@ bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e) {
     d->back = ARENA_NEW(arena, int, lattice->nplaces, e);
     d->loose = ARENA_NEW(arena, int, LOOSE_A_PLACE * lattice->nplaces, e);
     return d->wanted && d->is_out_of_reach && d->spare && d->is_back && d->back && d->loose &&
-           hollow_reserve(&d->hollow, lattice, arena, e) && slopes_reserve(&d->slopes, lattice, arena, e);
+           hollow_reserve(&d->hollow, arena, e) && slopes_reserve(&d->slopes, lattice, arena, e);
 }
 
 void dent_carry(Denter *d, const Field *last, const BodyFrame *body, double dt, bool goes_on) {
@@ -70,11 +70,12 @@ void dent_round(Denter *d) {
 static bool find_depths(Denter *d, const Push *p, const Touch *t, Limb limb) {
     memset(d->depth[limb], 0, (size_t)p->sheet->nvertices * sizeof(double));
     if (d->is_off || !(t->parts[limb] || d->is_held[limb])) return false;
-    hollow_find(&d->hollow, p, t, limb, d->is_out_of_reach);
+    hollow_find(&d->hollow, p, t, limb);
     for (int v = 0; v < p->sheet->nvertices; v++) {
         int place = p->sheet->place[v];
         if (d->spare[place] > MOST_BACK * p->field.scale) continue;
         d->depth[limb][v] = fmax(hollow_depth(&d->hollow, p, v), d->held[limb][place]);
+        d->is_out_of_reach[v] |= d->depth[limb][v] >= p->field.cap;
     }
     return true;
 }
