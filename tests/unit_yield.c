@@ -100,7 +100,7 @@ static void shares(void) {
             if (a == b || !yield_concerns((Role)a, (Role)b)) continue;
             Contact x, y;
             yield_contact((Role)a, (Role)b, 1, &x, &y);
-            if (fabs(x.share + y.share - 1) > 1e-15 || x.folds != y.folds || !yield_concerns((Role)b, (Role)a)) {
+            if (fabs(x.share + y.share - 1) > 1e-15 || x.joined != y.joined || !yield_concerns((Role)b, (Role)a)) {
                 OK(false, "%s and %s do not agree", role_name((Role)a), role_name((Role)b));
                 return;
             }
@@ -164,14 +164,16 @@ static void normals_are_slopes(void) {
         bool bends = k % 2;
         Role a = bends ? ROLE_LEFT_THIGH : ROLE_LEFT_HAND, b = bends ? ROLE_LEFT_SHIN : ROLE_PELVIS;
         yield_contact(a, b, 1, &p.contact, &other);
-        if (bends) yield_fold(vec_scale(direction(), 0.05), direction(), direction(), 0.05, &p.contact, &other);
+        Fold fold = {ROLE_LEFT_SHIN, dice_unit(), vec_scale(direction(), 0.05), direction(), direction(), 0.05, 0.07};
+        fold.inwards = vec_unit_or(vec_cross(fold.inwards, fold.across), vec(1, 0, 0));
+        if (bends) yield_fold(&fold, &p.contact, &other);
         Vec3 at = vec_scale(direction(), 0.01), there = slope_at(&p, at, 1e-8), back = slope_at(&p, at, -1e-8);
         Meeting m;
         double by = left_at(&p, at, &m) - m.distance;
         if (by <= 0 || vec_dist(there, back) > 1e-5 || vec_len(there) < 0.01) continue; /* an edge, or no way out */
         tried++;
-        capped += by >= p.contact.most * (1 - 1e-12);
-        folded += bends && p.contact.fold.bottom > 0;
+        capped += by >= p.contact.soft * (1 - 1e-12);
+        folded += p.contact.fold != NULL;
         worst = fmax(worst, vec_dist(vec_unit_or(there, at), yield_normal(&p.contact, YIELD_ROOM, &m)));
     }
     OK(worst < 1e-4 && capped > 100 && folded > 100 && tried - capped - folded > 100,

@@ -32,6 +32,7 @@ typedef struct {
     Box box[BODY_PARTS_MAX];       /* round each part, a little larger; world, metres */
     Box *block;                    /* round every sixteen vertices of a part's skin, before it gave way; see
                                       body_frame_blocks */
+    Folds folds;                   /* of this pose */
     Contacts contacts[BODY_PARTS_MAX]; /* what each part gives way to in this pose */
     double room;                   /* YIELD_ROOM of this body, metres */
     Give *give;                    /* per vertex of the skin */

@@ -2,6 +2,7 @@
 #ifndef DRESS_FOLLOW_H
 #define DRESS_FOLLOW_H
 
+#include "dress/fold.h"
 #include "garment/fit.h"
 
 /* What global deformation needs from frame to frame; private inside. */
@@ -10,6 +11,7 @@ typedef struct {
     const Figure *figure;
     const Body *body;
     Quat turn[ROLE_COUNT];               /* rotation of every bone in this pose, by its sign: which way round */
+    Folds folds;                         /* of this pose */
     Vec3 (*curve)[4];                    /* control points of every curve in this pose */
     Vec3 (*slope)[GARMENT_ROWS_MAX][2][4]; /* per panel and row: derivatives across the rows at the curve's control
                                               points, for the patch above the row and for the one below */

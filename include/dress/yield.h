@@ -3,25 +3,20 @@
 #ifndef DRESS_YIELD_H
 #define DRESS_YIELD_H
 
-#include "figure/body.h"
-
-/* The fold inside a bent knee or elbow, where the flesh of both bones is pressed flat along the plane that halves the
-   bend. World frame, metres. */
-typedef struct {
-    Vec3 centre;     /* of the joint */
-    Vec3 inwards;    /* unit: from the joint into the fold, within the plane */
-    Vec3 across;     /* unit normal of the plane, towards the part that gives way */
-    Vec3 floor;      /* unit normal of the wall that closes the fold towards the joint */
-    double bottom;   /* how far from the joint along `inwards` the fold begins; 0: there is no fold */
-} Fold;
+#include "dress/fold.h"
 
 /* How a part gives way to another that presses on it. */
 typedef struct {
     int other;       /* the other part */
     double share;    /* share of the missing room that this part makes */
-    double most;     /* it gives way no farther, metres */
-    bool folds;      /* do they meet at a joint? Then it gives way only where their surfaces face each other */
-    Fold fold;       /* of the two bones of a limb */
+    double soft;     /* it gives way no farther than this, metres, */
+    double most;     /* in a fold than this */
+    double reach;    /* and only where the other part is nearer than this, metres */
+    bool joined;     /* do they meet at a joint? Then it gives way only where their surfaces face each other */
+    const Fold *fold;/* in which they meet; NULL: in none, or it is open */
+    Vec3 across;     /* unit normal of its plane, towards the part that gives way */
+    Vec3 floor;      /* unit normal of the wall that closes it towards the joint */
+    double bottom;   /* how far from the joint along fold->inwards it begins, metres */
 } Contact;
 
 /* A part gives way to so many others at the most, the first that are found. */
@@ -35,12 +30,8 @@ bool yield_concerns(Role a, Role b);
 /* The two sides of a contact of roles a and b on a body of `scale` x 1.70 m. */
 void yield_contact(Role a, Role b, double scale, Contact *of_a, Contact *of_b);
 
-/* Are they the two bones, upper and lower, that meet at a knee or elbow? */
-bool yield_hinges(Role upper, Role lower);
-
-/* The fold of such a contact: joint at `centre`, unit directions from there up one bone and down the other,
-   and the radius of the limb at the joint, metres. */
-void yield_fold(Vec3 centre, Vec3 up, Vec3 down, double radius, Contact *upper, Contact *lower);
+/* The same for a contact in a fold that is not open. The fold must outlive it. */
+void yield_fold(const Fold *fold, Contact *above, Contact *below);
 
 /* May a part give way at all where its normal is about `normal` and the other's is `away`? A cheap test before
    yield_by. */

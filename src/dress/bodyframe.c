@@ -50,8 +50,9 @@ static double give_way(const BodyFrame *f, int part, BodyPoint *p, Meeting *m, V
     for (int k = 0; k < contacts->n; k++) {
         const Contact *contact = &contacts->contact[k];
         if (contact->most <= most) continue;
-        m->other = own_distance(f, contact->other, p, far, &m->away);
-        double by = m->other < far ? yield_by(contact, f->room, m) : 0;
+        double reach = fmax(far, contact->reach);
+        m->other = own_distance(f, contact->other, p, reach, &m->away);
+        double by = m->other < reach ? yield_by(contact, f->room, m) : 0;
         if (by <= most) continue;
         most = by;
         to = contact;

@@ -35,6 +35,7 @@ void body_frame_pose(BodyFrame *f, const Pose *pose) {
         f->to_part[p] = rigid_inverse(to_world);
         find_box(f, p);
     }
+    f->folds = folds_find(b, pose);
     flesh_press(f);
     mesh_snap_points(f->vectors, f->position, f->unit, b->skin.nvertices, f->position);
     f->boxes->made = 0;

@@ -50,10 +50,11 @@ static double room_for(const Escape *s, const BodyFrame *body, EscapePoint *p, i
 static bool side_in_fold(const BodyFrame *body, int part, Vec3 x, bool above, Vec3 *side) {
     const Contacts *c = &body->contacts[part];
     for (int k = 0; k < c->n; k++) {
-        const Fold *fold = &c->contact[k].fold;
-        if (fold->bottom <= 0 || (c->contact[k].other < part) != above) continue;
-        *side = vec_scale(fold->across, -1);
-        return vec_dot(vec_sub(x, fold->centre), fold->inwards) > 0;
+        const Contact *to = &c->contact[k];
+        Role role = body->body->part[part].role, other = body->body->part[to->other].role;
+        if (!to->fold || role_limb(role) != role_limb(other) || (other < role) != above) continue;
+        *side = vec_scale(to->across, -1);
+        return vec_dot(vec_sub(x, to->fold->joint), to->fold->inwards) > 0;
     }
     return false;
 }

@@ -25,16 +25,17 @@ static bool boxes_near(Box a, Box b, double room) {
 
 /* The next vertices of a part, from its *v-th on, that are near the box of another; moves *v on. False if none are
    left. */
-static bool gather(const BodyFrame *f, int part, int other, int *v, Block *out) {
+static bool gather(const BodyFrame *f, int part, const Contact *contact, int *v, Block *out) {
+    int other = contact->other;
     const BodyPart *p = &f->body->part[part];
     const Box *blocks = body_frame_blocks(f, part);
     out->n = 0;
     while (*v < p->nvertices && out->n <= BLOCK - BODY_BLOCK) {
         int end = *v + BODY_BLOCK < p->nvertices ? *v + BODY_BLOCK : p->nvertices;
-        bool is_near = boxes_near(blocks[*v / BODY_BLOCK], f->box[other], f->room);
+        bool is_near = boxes_near(blocks[*v / BODY_BLOCK], f->box[other], contact->reach);
         for (int k = *v; is_near && k < end; k++) {
             Vec3 skin = f->position[p->first_vertex + k];
-            if (!body_frame_far(f, other, skin, f->room)) add(out, p->first_vertex + k, skin);
+            if (!body_frame_far(f, other, skin, contact->reach)) add(out, p->first_vertex + k, skin);
         }
         *v = end;
     }
@@ -48,11 +49,11 @@ static bool press(BodyFrame *f, int part, const Contact *contact) {
     Vec3 away[BLOCK], normal[BLOCK];
     bool any = false;
     Block all, near;
-    for (int v = 0; gather(f, part, contact->other, &v, &all);) {
-        body_frame_unpressed_many(f, contact->other, all.skin, all.n, f->room, distance, away);
+    for (int v = 0; gather(f, part, contact, &v, &all);) {
+        body_frame_unpressed_many(f, contact->other, all.skin, all.n, contact->reach, distance, away);
         near.n = 0;
         for (int i = 0; i < all.n; i++) {
-            if (distance[i] >= f->room) continue;
+            if (distance[i] >= contact->reach) continue;
             any = true;
             if (!yield_may(contact, body_frame_rest_normal(f, &f->body->part[part], all.vertex[i]), away[i])) continue;
             distance[near.n] = distance[i];
@@ -71,15 +72,6 @@ static bool press(BodyFrame *f, int part, const Contact *contact) {
     return any;
 }
 
-/* The fold between two bones of a limb. */
-static void find_fold(const BodyFrame *f, int upper, int lower, Contact *of_upper, Contact *of_lower) {
-    const BodyPart *part = &f->body->part[lower];
-    Vec3 joint = rigid_apply(f->pose.bone[part->role], part->frame.t);
-    Vec3 up = vec_scale(mat_column(f->to_world[upper], 1), -1), down = mat_column(f->to_world[lower], 1);
-    Section s = body_section_at(part, 0);
-    yield_fold(joint, up, down, fmax(s.front, s.back), of_upper, of_lower);
-}
-
 static void meet(BodyFrame *f, int a, int b) {
     Role of_a = f->body->part[a].role, of_b = f->body->part[b].role;
     Contacts *ca = &f->contacts[a], *cb = &f->contacts[b];
@@ -88,7 +80,8 @@ static void meet(BodyFrame *f, int a, int b) {
         return;
     Contact *to_b = &ca->contact[ca->n], *to_a = &cb->contact[cb->n];
     yield_contact(of_a, of_b, figure_scale(f->body->height), to_b, to_a);
-    if (yield_hinges(of_a, of_b)) find_fold(f, a, b, to_b, to_a);
+    const Fold *fold = folds_between(&f->folds, of_a, of_b);
+    if (fold) yield_fold(fold, fold->lower == of_b ? to_b : to_a, fold->lower == of_b ? to_a : to_b);
     to_b->other = b;
     to_a->other = a;
     bool b_is_near = press(f, a, to_b), a_is_near = press(f, b, to_a);
@@ -100,9 +93,10 @@ static void meet(BodyFrame *f, int a, int b) {
 static double most_at(const BodyFrame *f, int part, Vec3 p) {
     const Contacts *contacts = &f->contacts[part];
     double most = 0;
-    for (int k = 0; k < contacts->n; k++)
-        if (!body_frame_far(f, contacts->contact[k].other, p, f->room))
-            most = fmax(most, contacts->contact[k].most);
+    for (int k = 0; k < contacts->n; k++) {
+        const Contact *c = &contacts->contact[k];
+        if (!body_frame_far(f, c->other, p, c->reach)) most = fmax(most, c->most);
+    }
     return most;
 }
 

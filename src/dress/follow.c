@@ -8,6 +8,7 @@
 
 #include <string.h>
 
+#include "dress/crease.h"
 #include "dress/envelope.h"
 
 static int column_end(const Fit *fit, int panel, int row, int end) {
@@ -91,39 +92,6 @@ static Rigid blend(const Follower *f, const Pose *pose, const Binding *b) {
     return (Rigid){mat_from_quat((Quat){mean.w / n, v.x / n, v.y / n, v.z / n}), vec_scale(t, 1 / (n * n))};
 }
 
-/* Is it a joint that is straight in the canonical stance and folds: a hip, a knee, an elbow? */
-static bool is_hinge(Role bone, Role on) {
-    bool on_pelvis = on == ROLE_PELVIS && (bone == ROLE_LEFT_THIGH || bone == ROLE_RIGHT_THIGH);
-    bool on_limb = bone == ROLE_LEFT_SHIN || bone == ROLE_RIGHT_SHIN || bone == ROLE_LEFT_FOREARM ||
-                   bone == ROLE_RIGHT_FOREARM;
-    return on_pelvis || (on_limb && on + 1 == bone);
-}
-
-/* How far a point in the fold of a hinge lies outside of where a blend leaves it. A blend keeps its distance from the
-   joint, but there the flesh of both sides meets as the sides of a mitre do: on the line that halves the angle between
-   the bones, farther out by 1 / sin of that half. */
-static Vec3 mitre(const Follower *f, const Pose *pose, Role bone, Role on, Vec3 point) {
-    static const double MOST = 1.6;
-    Vec3 joint = f->figure->start[bone], down = vec_sub(f->figure->end[bone], joint);
-    Vec3 up = on == ROLE_PELVIS ? vec(0, 1, 0) : vec_sub(f->figure->start[on], joint);
-    Vec3 halving = vec_add(mat_apply(pose->bone[bone].r, vec_unit_or(down, vec(0, -1, 0))),
-                           mat_apply(pose->bone[on].r, vec_unit_or(up, vec(0, 1, 0))));
-    Vec3 line = vec_unit_or(halving, vec(0, 0, 0));
-    double cosine = 0.5 * vec_len(halving), sine = sqrt(fmax(1 - cosine * cosine, 1e-12));
-    double inside = vec_dot(vec_sub(point, rigid_apply(pose->bone[bone], joint)), line);
-    return vec_scale(line, fmax(inside, 0) * (fmin(1 / sine, MOST) - 1));
-}
-
-/* A node that hangs half on the one bone and half on the other goes as far as the mitre says. */
-static Vec3 out_of_folds(const Follower *f, const Pose *pose, const Binding *b, Vec3 node) {
-    Vec3 out = node;
-    for (int i = 0; i < b->n; i++)
-        for (int k = 0; k < b->n; k++)
-            if (is_hinge(b->bone[i], b->bone[k]))
-                out = vec_mad(out, mitre(f, pose, b->bone[i], b->bone[k], node), 4 * b->weight[i] * b->weight[k]);
-    return out;
-}
-
 /* The inner control point at an end of a half arc that its middle station shapes (see FitCurve). node: where that
    end is. The handle keeps at least LEAST of its rest length, or a leg that is bent far would turn it over. */
 static Vec3 shaped_handle(const Follower *f, const FitCurve *curve, int end, const Pose *pose, Vec3 node) {
@@ -134,18 +102,32 @@ static Vec3 shaped_handle(const Follower *f, const FitCurve *curve, int end, con
     return vec_mad(node, direction, fmax(vec_dot(vec_sub(wanted, node), direction), LEAST * vec_len(arm)));
 }
 
+static CreaseSide side_of_node(const Follower *f, const Fold *fold, int curve, int end) {
+    return crease_side(fold, &f->fit->node[f->fit->curve[curve].node[end]].binding);
+}
+
+/* A curve of a ring stays on its side of all folds. */
+static void keep_curve(Follower *f, const Pose *pose, int curve) {
+    for (const Fold *fold = f->folds.fold; fold < f->folds.fold + FOLDS; fold++)
+        if (fold->closed > 0)
+            crease_keep(f->body, pose, fold, side_of_node(f, fold, curve, 0), side_of_node(f, fold, curve, 1),
+                        f->curve[curve]);
+}
+
 static void curves_by_bones(Follower *f, const Pose *pose) {
     find_turns(f, pose);
+    f->folds = folds_find(f->body, pose);
     for (int c = 0; c < f->fit->ncurves; c++) {
         const FitCurve *curve = &f->fit->curve[c];
         for (int end = 0; end < 2; end++) {
             const FitNode *node = &f->fit->node[curve->node[end]];
             Rigid g = blend(f, pose, &node->binding);
             Vec3 rest = curve->rest[3 * end], handle = vec_sub(curve->rest[1 + end], rest);
-            Vec3 at = f->curve[c][3 * end] = out_of_folds(f, pose, &node->binding, rigid_apply(g, rest));
+            Vec3 at = f->curve[c][3 * end] = crease_mitre(f->figure, pose, &node->binding, rigid_apply(g, rest));
             f->curve[c][1 + end] =
                 curve->middle.n ? shaped_handle(f, curve, end, pose, at) : vec_add(at, mat_apply(g.r, handle));
         }
+        keep_curve(f, pose, c);
     }
 }
 
@@ -260,6 +242,23 @@ static void loft(const Follower *f, const FitPatch *patch, Patch *out) {
     for (int k = 0; k < 4; k++) bezier_from_hermite(above[k], leave[k], below[k], arrive[k], h, out->p[k]);
 }
 
+/* What a panel has between two rings stays on its side of all folds, as the rings do. */
+static void keep_patch(const Follower *f, const Pose *pose, const FitPatch *patch, Patch *p) {
+    const int *row = &f->fit->panel[patch->panel].curve[patch->row];
+    for (const Fold *fold = f->folds.fold; fold < f->folds.fold + FOLDS; fold++) {
+        if (fold->closed <= 0) continue;
+        CreaseSide side[2];
+        for (int end = 0; end < 2; end++)
+            side[end] = crease_side_of_both(side_of_node(f, fold, row[0], end), side_of_node(f, fold, row[1], end));
+        for (int between = 1; between < 3; between++) {
+            Vec3 curve[4];
+            for (int k = 0; k < 4; k++) curve[k] = p->p[k][between];
+            crease_keep(f->body, pose, fold, side[0], side[1], curve);
+            for (int k = 0; k < 4; k++) p->p[k][between] = curve[k];
+        }
+    }
+}
+
 static void follow_raw(const Follower *f, const FitPatch *patch, const Pose *pose, Patch *out) {
     const RawPatch *raw = &f->fit->garment->patch[patch->row];
     const Vec3 *rest = f->fit->raw[patch->row];
@@ -273,7 +272,8 @@ static void follow_raw(const Follower *f, const FitPatch *patch, const Pose *pos
 
 void follow_pose(Follower *f, const Pose *pose, Patch *out) {
     const Fit *fit = f->fit;
-    if (fit->garment->follow == FOLLOW_ENVELOPE && fit->npanels > 0) {
+    bool by_envelope = fit->garment->follow == FOLLOW_ENVELOPE;
+    if (by_envelope && fit->npanels > 0) {
         curves_by_envelope(f, pose);
     } else {
         curves_by_bones(f, pose);
@@ -283,5 +283,6 @@ void follow_pose(Follower *f, const Pose *pose, Patch *out) {
     for (int p = 0; p < fit->npatches; p++) {
         if (fit->patch[p].panel < 0) follow_raw(f, &fit->patch[p], pose, &out[p]);
         else loft(f, &fit->patch[p], &out[p]);
+        if (fit->patch[p].panel >= 0 && !by_envelope) keep_patch(f, pose, &fit->patch[p], &out[p]);
     }
 }

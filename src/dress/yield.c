@@ -69,81 +69,81 @@ static bool share_joint(Role a, Role b) {
 void yield_contact(Role a, Role b, double scale, Contact *of_a, Contact *of_b) {
     bool legs = are_legs(a, b);
     double soft_a = legs ? softness_of_legs(a) : softness(a), soft_b = legs ? softness_of_legs(b) : softness(b);
-    *of_a = (Contact){.share = soft_a / (soft_a + soft_b), .most = soft_a * scale, .folds = share_joint(a, b)};
-    *of_b = (Contact){.share = 1 - of_a->share, .most = soft_b * scale, .folds = of_a->folds};
+    bool joined = share_joint(a, b);
+    double share = soft_a / (soft_a + soft_b);
+    *of_a = (Contact){.share = share, .soft = soft_a * scale, .joined = joined};
+    *of_b = (Contact){.share = 1 - share, .soft = soft_b * scale, .joined = joined};
+    of_a->most = of_a->soft;
+    of_b->most = of_b->soft;
+    of_a->reach = of_b->reach = YIELD_ROOM * scale;
 }
 
-bool yield_hinges(Role upper, Role lower) { return is_upper(upper) && lower == upper + 1; }
-
-static Vec3 floor_of(const Fold *fold) {
+/* One side of a fold. The nearer to closed, the deeper it begins, and the farther the flesh gives way there. */
+static void enter_fold(const Fold *fold, Vec3 across, Contact *of) {
     static const double STEEP = 3;
-    return vec_unit_or(vec_mad(fold->across, fold->inwards, -STEEP), fold->across);
+    static const double BEYOND = 1.5; /* radii: an open joint has no fold, its skin does not reach that far in */
+    double c = fold->closed;
+    of->fold = fold;
+    of->across = across;
+    of->floor = vec_unit_or(vec_mad(across, fold->inwards, -STEEP), across);
+    of->bottom = fold->radius * (BEYOND + (1 - BEYOND) * c);
+    of->most += c * fmax(fold->radius - of->most, 0);
+    of->reach += c * fmax(fold->reach - of->reach, 0);
 }
 
-void yield_fold(Vec3 centre, Vec3 up, Vec3 down, double radius, Contact *upper, Contact *lower) {
-    static const double OPEN = 40 * PI / 180, FOLDED = 80 * PI / 180; /* bends of the joint */
-    static const double BEYOND = 1.5; /* radii: an open joint has no fold, its skin does not reach that far in */
-    static const double GIVES = 0.8;  /* of the radius: there is a bone in it */
-    double bend = atan2(vec_len(vec_cross(up, down)), -vec_dot(up, down));
-    upper->fold = (Fold){.centre = centre, .across = vec_unit_or(vec_sub(up, down), up)};
-    upper->fold.inwards = vec_unit_or(vec_add(up, down), vec(0, 0, 0));
-    if (bend > OPEN) upper->fold.bottom = radius * (BEYOND + (1 - BEYOND) * smoothstep(OPEN, FOLDED, bend));
-    lower->fold = upper->fold;
-    lower->fold.across = vec_scale(upper->fold.across, -1);
-    upper->fold.floor = floor_of(&upper->fold);
-    lower->fold.floor = floor_of(&lower->fold);
-    upper->most = fmax(upper->most, GIVES * radius);
-    lower->most = fmax(lower->most, GIVES * radius);
+void yield_fold(const Fold *fold, Contact *above, Contact *below) {
+    enter_fold(fold, fold->across, above);
+    enter_fold(fold, vec_scale(fold->across, -1), below);
 }
 
 /* The surfaces at which a part ends in a fold, as distances of a point from them: half the room before the plane
    that halves the bend (wall); before the steep wall towards the joint, where both bones are one (below); and where
-   the other part is no longer near (near). */
+   the other part is no longer within reach (near). */
 typedef struct { double wall, below, near; } FoldEnd;
-static FoldEnd end_in_fold(const Fold *fold, double room, const Meeting *m) {
-    Vec3 r = vec_sub(m->at, fold->centre);
+static FoldEnd end_in_fold(const Contact *c, double room, const Meeting *m) {
+    Vec3 r = vec_sub(m->at, c->fold->joint);
     double half = 0.5 * room;
-    return (FoldEnd){.wall = half - vec_dot(r, fold->across),
-                     .below = half * vec_dot(fold->floor, fold->across) -
-                              vec_dot(vec_mad(r, fold->inwards, -fold->bottom), fold->floor),
-                     .near = room - m->other};
+    return (FoldEnd){.wall = half - vec_dot(r, c->across),
+                     .below = half * vec_dot(c->floor, c->across) -
+                              vec_dot(vec_mad(r, c->fold->inwards, -c->bottom), c->floor),
+                     .near = c->reach - m->other};
 }
 
 static inline double lesser(double a, double b) { return a < b ? a : b; }
 
 static double yield_in_fold(const Contact *c, double room, const Meeting *m) {
-    if (c->fold.bottom <= 0) return 0;
-    FoldEnd end = end_in_fold(&c->fold, room, m);
+    if (!c->fold) return 0;
+    FoldEnd end = end_in_fold(c, room, m);
     double least = lesser(lesser(end.wall, end.below), end.near);
     return least <= m->distance ? 0 : lesser(least - m->distance, c->most);
 }
 
-static Vec3 normal_in_fold(const Fold *fold, double room, const Meeting *m) {
-    FoldEnd end = end_in_fold(fold, room, m);
+static Vec3 normal_in_fold(const Contact *c, double room, const Meeting *m) {
+    FoldEnd end = end_in_fold(c, room, m);
     bool is_near = end.near <= end.wall && end.near <= end.below;
-    return vec_scale(is_near ? m->away : end.wall <= end.below ? fold->across : fold->floor, -1);
+    return vec_scale(is_near ? m->away : end.wall <= end.below ? c->across : c->floor, -1);
 }
 
 /* The share of the missing room that a part makes at a point. */
 static double share_at(const Contact *c, const Meeting *m) {
     static const double FACING = 0.6; /* cosine of one normal to the opposite of the other: from here on in full */
-    return c->folds ? c->share * smoothstep(0, FACING, -vec_dot(m->normal, m->away)) : c->share;
+    return c->joined ? c->share * smoothstep(0, FACING, -vec_dot(m->normal, m->away)) : c->share;
 }
 
 static double yield_by_share(const Contact *c, double room, const Meeting *m) {
     double lacking = room - m->distance - m->other;
-    return lacking <= 0 ? 0 : lesser(share_at(c, m) * lacking, c->most);
+    return lacking <= 0 ? 0 : lesser(share_at(c, m) * lacking, c->soft);
 }
 
 static Vec3 normal_by_share(const Contact *c, double room, const Meeting *m) {
     double share = share_at(c, m);
-    if (yield_by_share(c, room, m) >= c->most) return m->normal;
+    if (yield_by_share(c, room, m) >= c->soft) return m->normal;
     return vec_unit_or(vec_sub(vec_scale(m->normal, 1 - share), vec_scale(m->away, share)), m->normal);
 }
 
 bool yield_may(const Contact *c, Vec3 normal, Vec3 away) {
     static const double SURE = 0.2; /* cosine between the normals below which they may face each other */
-    return !c->folds || c->fold.bottom > 0 || vec_dot(normal, away) < SURE;
+    return !c->joined || c->fold || vec_dot(normal, away) < SURE;
 }
 
 double yield_by(const Contact *c, double room, const Meeting *m) {
@@ -153,5 +153,5 @@ double yield_by(const Contact *c, double room, const Meeting *m) {
 
 Vec3 yield_normal(const Contact *c, double room, const Meeting *m) {
     bool is_folded = yield_in_fold(c, room, m) > yield_by_share(c, room, m);
-    return is_folded ? normal_in_fold(&c->fold, room, m) : normal_by_share(c, room, m);
+    return is_folded ? normal_in_fold(c, room, m) : normal_by_share(c, room, m);
 }

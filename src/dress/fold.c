@@ -1,0 +1,56 @@
+/* All that a fold needs is the joint and the directions from there along both sides. Above a hip that is the line to
+   the neck: a bent back folds over the thigh as a whole. */
+#include "dress/fold.h"
+
+/* Bends (degrees; 0: straight) at which a joint begins to fold, and is folded; and `reach` against its radius. */
+typedef struct { Role lower; double opens, folds, reach; } Hinge;
+static const Hinge hinges[FOLDS] = {
+    {ROLE_LEFT_THIGH, 100, 130, 1},     {ROLE_RIGHT_THIGH, 100, 130, 1},  {ROLE_LEFT_SHIN, 40, 80, 1.5},
+    {ROLE_RIGHT_SHIN, 40, 80, 1.5},     {ROLE_LEFT_FOREARM, 40, 80, 1.5}, {ROLE_RIGHT_FOREARM, 40, 80, 1.5}};
+
+static bool is_hip(Role lower) { return lower == ROLE_LEFT_THIGH || lower == ROLE_RIGHT_THIGH; }
+
+/* A point `at` metres along a part's bone; world. */
+static Vec3 along_bone(const BodyPart *part, const Pose *pose, double at) {
+    return rigid_apply(pose->bone[part->role], rigid_apply(part->frame, vec(0, at, 0)));
+}
+
+static Fold find(const Body *body, const Pose *pose, const Hinge *hinge) {
+    Role upper = is_hip(hinge->lower) ? ROLE_CHEST : hinge->lower - 1;
+    int below = body->of_role[hinge->lower], above = body->of_role[upper];
+    Fold f = {.lower = hinge->lower};
+    if (below < 0 || above < 0) return f;
+    const BodyPart *lower = &body->part[below], *farthest = &body->part[above];
+    Section s = body_section_at(lower, 0);
+    f.joint = along_bone(lower, pose, 0);
+    f.radius = fmax(s.front, s.back);
+    f.reach = hinge->reach * f.radius;
+    Vec3 end = along_bone(farthest, pose, is_hip(hinge->lower) ? farthest->length : 0);
+    Vec3 up = vec_unit_or(vec_sub(end, f.joint), vec(0, 1, 0));
+    Vec3 down = vec_unit_or(vec_sub(along_bone(lower, pose, lower->length), f.joint), vec(0, -1, 0));
+    double bend = atan2(vec_len(vec_cross(up, down)), -vec_dot(up, down));
+    f.closed = smoothstep(hinge->opens * PI / 180, hinge->folds * PI / 180, bend);
+    f.across = vec_unit_or(vec_sub(up, down), up);
+    f.inwards = vec_unit_or(vec_add(up, down), vec(0, 0, 0));
+    return f;
+}
+
+Folds folds_find(const Body *body, const Pose *pose) {
+    Folds folds;
+    for (int k = 0; k < FOLDS; k++) folds.fold[k] = find(body, pose, &hinges[k]);
+    return folds;
+}
+
+bool fold_has_above(const Fold *fold, Role role) {
+    if (is_hip(fold->lower)) return role == ROLE_PELVIS || role == ROLE_SPINE || role == ROLE_CHEST;
+    return role + 1 == fold->lower;
+}
+
+const Fold *folds_between(const Folds *folds, Role a, Role b) {
+    for (int k = 0; k < FOLDS; k++) {
+        const Fold *f = &folds->fold[k];
+        bool meet = (f->lower == a && fold_has_above(f, b)) || (f->lower == b && fold_has_above(f, a));
+        if (meet && f->closed > 0) return f;
+    }
+    return NULL;
+}
