@@ -16,7 +16,7 @@ typedef struct {
     Vec3 held_way[LIMBS];   /* and in which direction */
     double turn;           /* by how much that may turn in this frame, radians */
     bool is_held[LIMBS];    /* is there anything of it? */
-    double *wanted;        /* the same before it was levelled */
+    double *wanted[LIMBS]; /* the same before it was levelled */
     bool *is_out_of_reach; /* per vertex: would it have to go farther than the cap, or stretch an edge too far? */
     double *spare;         /* per place: extra clearance from own parts (metres), where an edge between the hollow's
                               vertices crossed one */

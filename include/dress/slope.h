@@ -24,7 +24,7 @@ const int *slopes_beside(Slopes *s, const Sheet *sheet, int vertex, int *n);
 /* Makes vertices shallower, which are to be moved along `way` by depth[v] metres, until no edge is stretched too far,
    so that cloth beside a vertex that has no room stays behind too. The result is the deepest hollow of that kind.
    Returns false if it was not reached within a cap. */
-MUST_CHECK bool slopes_level(Slopes *s, const Push *p, Vec3 way, double *depth);
+MUST_CHECK bool slopes_level(Slopes *s, const Push *p, Limb limb, double *const wanted[LIMBS], double *depth);
 
 /* The share of `by`, 0 to 1, by which a vertex may move without stretching an edge too far. */
 double slopes_share(Slopes *s, const Push *p, int vertex, Vec3 by);

@@ -25,15 +25,15 @@ bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e) {
     for (int limb = 0; limb < LIMBS; limb++) {
         d->depth[limb] = ARENA_NEW(arena, double, lattice->nplaces, e);
         d->held[limb] = ARENA_NEW(arena, double, lattice->nplaces, e);
-        if (!d->depth[limb] || !d->held[limb]) return false;
+        d->wanted[limb] = ARENA_NEW(arena, double, lattice->nplaces, e);
+        if (!d->depth[limb] || !d->held[limb] || !d->wanted[limb]) return false;
     }
-    d->wanted = ARENA_NEW(arena, double, lattice->nplaces, e);
     d->is_out_of_reach = ARENA_NEW(arena, bool, lattice->nplaces, e);
     d->spare = ARENA_NEW(arena, double, lattice->nplaces, e);
     d->is_back = ARENA_NEW(arena, bool, lattice->nplaces, e);
     d->back = ARENA_NEW(arena, int, lattice->nplaces, e);
     d->loose = ARENA_NEW(arena, int, LOOSE_A_PLACE * lattice->nplaces, e);
-    return d->wanted && d->is_out_of_reach && d->spare && d->is_back && d->back && d->loose &&
+    return d->is_out_of_reach && d->spare && d->is_back && d->back && d->loose &&
            hollow_reserve(&d->hollow, arena, e) && slopes_reserve(&d->slopes, lattice, arena, e);
 }
 
@@ -103,12 +103,14 @@ static void make_room(Denter *d, const Push *p) {
     }
 }
 
-/* Makes them shallower where cloth would be torn. */
-static void level(Denter *d, const Push *p, Limb limb, bool *capped) {
-    size_t size = (size_t)p->sheet->nvertices * sizeof(double);
-    memcpy(d->wanted, d->depth[limb], size);
-    if (!slopes_level(&d->slopes, p, p->field.way[limb], d->depth[limb])) *capped = true;
-    for (int v = 0; v < p->sheet->nvertices; v++) d->is_out_of_reach[v] |= d->depth[limb][v] < d->wanted[v];
+/* Makes them shallower where cloth would be torn. has: of which limbs are there any? */
+static void level(Denter *d, const Push *p, const bool has[LIMBS], bool *capped) {
+    int n = p->sheet->nvertices;
+    for (int limb = 0; limb < LIMBS; limb++) memcpy(d->wanted[limb], d->depth[limb], (size_t)n * sizeof(double));
+    for (int limb = 0; limb < LIMBS; limb++) {
+        if (has[limb] && !slopes_level(&d->slopes, p, (Limb)limb, d->wanted, d->depth[limb])) *capped = true;
+        for (int v = 0; v < n; v++) d->is_out_of_reach[v] |= d->depth[limb][v] < d->wanted[limb][v];
+    }
 }
 
 static void set_dents(Push *p, int vertex, Dents dents, bool *capped) {
@@ -139,8 +141,7 @@ void dent_all(Denter *d, Push *p, bool *capped) {
     }
     if (!any) return;
     make_room(d, p);
-    for (int limb = 0; limb < LIMBS; limb++)
-        if (has[limb]) level(d, p, (Limb)limb, capped);
+    level(d, p, has, capped);
     for (int v = 0; v < sheet->nvertices; v++) {
         Dents hollows = hollows_at(d, p, v);
         bool is_short = false;

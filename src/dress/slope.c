@@ -59,14 +59,24 @@ static double step_between(const Push *p, Vec3 way, int deep, int other, double 
     return step * towards > shrinks ? shrinks / towards : step;
 }
 
-/* The edges in and round the hollows: depths elsewhere are 0 and stay so. */
-static int find_slopes(Slopes *s, const Push *p, Vec3 way, const double *depth) {
+/* The share that a limb has in what is pressed in at an edge. If each hollow keeps to its share of the steps that one
+   alone may make, the sum of all is between edges that are short enough, and so short enough as well. */
+static double share_of(double *const wanted[LIMBS], Limb limb, int a, int b) {
+    double all = 0;
+    for (int k = 0; k < LIMBS; k++) all += fmax(wanted[k][a], wanted[k][b]);
+    return fmax(wanted[limb][a], wanted[limb][b]) / all;
+}
+
+/* The edges in and round the hollow: depths elsewhere are 0 and stay so. */
+static int find_slopes(Slopes *s, const Push *p, Limb limb, double *const wanted[LIMBS]) {
+    Vec3 way = p->field.way[limb];
     int n = 0;
     for (int k = 0; k < p->sheet->nedges; k++) {
         int a = p->sheet->edge[k].v[0], b = p->sheet->edge[k].v[1];
-        if (depth[a] <= 0 && depth[b] <= 0) continue;
-        double most = longest(p, a, b);
-        s->slope[n++] = (Slope){{a, b}, {step_between(p, way, a, b, most), step_between(p, way, b, a, most)}};
+        if (wanted[limb][a] <= 0 && wanted[limb][b] <= 0) continue;
+        double most = longest(p, a, b), share = share_of(wanted, limb, a, b);
+        double a_to_b = share * step_between(p, way, a, b, most), b_to_a = share * step_between(p, way, b, a, most);
+        s->slope[n++] = (Slope){{a, b}, {a_to_b, b_to_a}};
     }
     return n;
 }
@@ -77,8 +87,8 @@ static bool lower(double *depth, double most) {
     return true;
 }
 
-bool slopes_level(Slopes *s, const Push *p, Vec3 way, double *depth) {
-    int n = find_slopes(s, p, way, depth);
+bool slopes_level(Slopes *s, const Push *p, Limb limb, double *const wanted[LIMBS], double *depth) {
+    int n = find_slopes(s, p, limb, wanted);
     bool moved = true;
     for (int round = 0; round < ROUNDS_MAX && moved; round++) {
         moved = false;
