@@ -11,6 +11,8 @@
 
 enum { POINTS_MAX = 4096 };                    /* of a finer skin only every second vertex presses, or third ... */
 static const double WIDE = 0.05, WIDENS = 1.2; /* radius of a hollow: metres on 1.70 m, and this times its depth */
+static const double NEAR = 0.03;      /* metres on 1.70 m: cloth so near to a limb counts for its direction. Less cloth
+                                         turns from frame to frame, more is not where the limb presses */
 static const double FACES = 0.5;      /* cosine between a vertex's inward normal and the limb's direction, from which on
                                          it is pressed in fully */
 static const double POINTED = 0.3;    /* squared sine between forearm and direction: below it the arm pokes the cloth,
@@ -42,22 +44,33 @@ static unsigned bare_parts(const Push *p) {
     return parts;
 }
 
-/* Adds the parts that a vertex is too near to. Its inward normal counts for their direction, weighted by what is
-   missing of its clearance. */
-static void add_touch(Touch *t, const Push *p, int vertex, unsigned parts) {
+/* Adds the limbs' parts that a vertex is too near to. */
+static void add_touching(Touch *t, const Push *p, int vertex, unsigned parts) {
     const BodyFrame *body = p->body;
     double clearance = PUSH_MARGIN * p->field.scale;
-    int place = p->sheet->place[vertex];
     for (; parts; parts &= parts - 1) {
         int k = near_first(parts);
-        if (p->field.lattice->collide[place] & part_bit(body, k)) continue;
-        if (body_frame_far(body, k, p->point[vertex], clearance)) continue;
-        double missing = clearance - body_frame_distance(body, k, p->point[vertex], clearance, NULL);
-        if (missing <= 0) continue;
-        Limb limb = limb_of(body, k);
-        t->way[limb] = vec_mad(t->way[limb], inwards(p, place), missing);
-        t->parts[limb] |= 1u << k;
+        bool is_own = p->field.lattice->collide[p->sheet->place[vertex]] & part_bit(body, k);
+        if (is_own || body_frame_far(body, k, p->point[vertex], clearance)) continue;
+        if (body_frame_distance(body, k, p->point[vertex], clearance, NULL) < clearance)
+            t->parts[limb_of(body, k)] |= 1u << k;
     }
+}
+
+/* The inward normal of the cloth near some parts: the mean of its vertices, weighted by how near they are. */
+static Vec3 inwards_near(const Push *p, unsigned parts) {
+    const BodyFrame *body = p->body;
+    double near = NEAR * p->field.scale;
+    Vec3 sum = {0, 0, 0};
+    for (int v = 0; v < p->sheet->nvertices; v++)
+        for (unsigned left = parts; left; left &= left - 1) {
+            int k = near_first(left), place = p->sheet->place[v];
+            bool is_own = p->field.lattice->collide[place] & part_bit(body, k);
+            if (is_own || body_frame_far(body, k, p->point[v], near)) continue;
+            double distance = body_frame_distance(body, k, p->point[v], near, NULL);
+            if (distance < near) sum = vec_mad(sum, inwards(p, place), near - distance);
+        }
+    return vec_unit_or(sum, vec(0, 0, 0));
 }
 
 /* The direction of an arm, made perpendicular to the forearm; but not if the arm stands straight on the cloth and pokes
@@ -76,13 +89,13 @@ Touch touch_find(const Push *p) {
     unsigned bare = bare_parts(p);
     for (int v = 0; v < p->sheet->nvertices; v++) {
         double slack = near_slack(p->near[v].least, p->clearance[v]);
-        if (slack <= vec_dist(p->point[v], p->near[v].seen)) add_touch(&t, p, v, bare);
+        if (slack <= vec_dist(p->point[v], p->near[v].seen)) add_touching(&t, p, v, bare);
     }
     for (int limb = 0; limb < LIMBS; limb++) {
         if (!t.parts[limb]) continue;
-        t.way[limb] = across_arm(body, (Limb)limb, vec_unit_or(t.way[limb], vec(0, 0, 0)));
         for (int k = 0; k < body->body->nparts && limb != LIMB_OTHER; k++) /* an arm presses with all bare parts */
             if (bare >> k & 1 && limb_of(body, k) == (Limb)limb) t.parts[limb] |= 1u << k;
+        t.way[limb] = across_arm(body, (Limb)limb, inwards_near(p, t.parts[limb]));
     }
     return t;
 }
