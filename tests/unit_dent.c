@@ -108,6 +108,27 @@ static void hand_between_knees(int facets) {
     arena_free(&s.arena);
 }
 
+/* Wherever the arm is: if it shows, the frame says so, and legs and hips never show for it. */
+static void hand_anywhere(void) {
+    enum { STEPS = 35 };
+    Scene s;
+    scene_open(&s, "skirt");
+    Dresser *push = scene_dresser(&s, (DressOptions){.fixed_topology = true});
+    int shown = 0, told = 0, own_shown = 0;
+    for (int k = 0; k < STEPS; k++) {
+        Pose pose = hand_in_lap(&s, 2 * k - 10);
+        Mesh mesh;
+        FrameStats with = scene_frame(&s, push, &pose, 0, TIE_AFRESH, &mesh);
+        shown += shows(&with) > 0;
+        told += shows(&with) > 0 && with.pinched > 0;
+        own_shown += own_shows(&with) > 0;
+    }
+    OK(shown > 0 && shown < STEPS && told == shown, "an arm shows in %d of %d poses, %d of which say so", shown, STEPS,
+       told);
+    OK(own_shown == 0, "own parts in none (%d)", own_shown);
+    arena_free(&s.arena);
+}
+
 /* All lengths of the method are measured by the height: half the figure has the same cloth, half as large. */
 static void half_the_size(const char *garment) {
     static const double sizes[2] = {1, 0.5};
@@ -138,6 +159,7 @@ int main(void) {
     hand_on_cloth("trousers", 42.5, 45, 47.5);
     hand_between_knees(8);
     hand_between_knees(9);
+    hand_anywhere();
     half_the_size("skirt");
     half_the_size("trousers");
     half_the_size("tshirt");
