@@ -46,6 +46,10 @@ dress in/walk2.bvh -o two
 "$KITSUKE" dress --merge two one -o both -q
 is 'summaries of different lists follow one another' \
     "$(awk -F, '/,ok,/ { printf "%s ", $1 }' both/summary.csv)" 'walk2 walk1 '
+(dress in/walk1.bvh -o timed && "$KITSUKE" dress -q -f -g "$skirt" in/walk1.bvh -o timed) >log
+ok 'those of runs with and without times have other columns: exit 3' \
+    must_fail 3 "$KITSUKE" dress --merge one timed -o both
+like 'and are named' "$(cat err)" "'one/summary.csv' and 'timed/summary.csv' have different columns"
 resumed() { rm -r parts/walk2 && must_fail 3 dress in --resume -o parts && diff -r -x 'summary.*-of-*' parts whole; }
 ok 'one run may finish what shards began' resumed
 for part in 0/3 4/3 3 a/b 1/0 1/3/2 1.5/3; do
@@ -95,6 +99,22 @@ part() { # the frames round the second chunk, alone, after a warm-up of their ow
         cmp part/long/skirt.0290.obj full/long/skirt.0290.obj
 }
 ok 'a selection shows the same frames' part
+# Less than 18 seconds of 66 frames are not cut; a longer walk is, behind 12 seconds.
+"$KITSUKE" walk --preset paper --steps 34 -o fine.bvh
+numbers() { sed -n 's/^v //p' "$1" | tr ' ' '\n'; }
+alike() {
+    awk '/^Frames:/ { $2 = 1187 } /^Frame Time/ { n = 1188 } { print } n && !--n { exit }' fine.bvh >whole.bvh
+    for motion in whole fine; do
+        "$KITSUKE" dress $motion.bvh -q -g "$root/garments/paper-skirt.garment" --body-detail 8 --detail 2 --no-times \
+            --topology fixed --format obj --no-body --frames 600:840 -o cut || return 1
+    done
+    for frame in $(seq 793 840); do
+        numbers cut/whole/paper-skirt.0$frame.obj >a.txt
+        numbers cut/fine/paper-skirt.0$frame.obj >b.txt
+        paste a.txt b.txt | awk '{ d = $1 - $2; if (d > 1.5e-6 || d < -1.5e-6) exit 1 }' || return 1
+    done
+}
+ok 'a chunk begins with the cloth of the one before' alike
 one_job() {
     head -c $(($(wc -c <long.bvh) - 20)) long.bvh >broken.bvh
     "$KITSUKE" dress broken.bvh -g "$skirt" -o broken --format none -j 4 2>err
@@ -124,6 +144,7 @@ is 'nothing outside of the folder' \
     "$(cd cage && find . -mindepth 1 -maxdepth 2 | sort | tr '\n' ' ')" './inner ./inner/out '
 is 'no control byte in a name' \
     "$(find cage | tr -d '\n' | tr -d -c '\001-\037\177' | wc -c | tr -d ' ')" 0
+is 'nor one that another system does not take' "$(find cage | grep '[\\:*?"<>|]')" ''
 is 'every motion has a folder of its own' "$(find cage -name stats.csv | wc -l | tr -d ' ')" \
     "$(grep -c ',ok,' cage/inner/out/summary.csv)"
 like 'as many as there were' "$(grep -c ',ok,' cage/inner/out/summary.csv)" '^1[5-9]$'

@@ -43,6 +43,10 @@ for view in front back left right iso 200 -35/-40; do
     ok "--view $view" draw -o view.svg --size 60 --frames 5 --view "$view" --follow --zoom 2
     is "--view $view: a picture" "$(pictures view.svg)" 1
 done
+ok 'without --follow the figure walks through the view' draw -o walks.svg --size 60 --frames 1,72 --view left
+ok 'with it the camera walks along' draw -o stays.svg --size 60 --frames 1,72 --follow --view left
+wide() { sed -n 's/.*<svg[^>]* width="\([0-9.]*\)".*/\1/p' "$1"; }
+ok 'and the pictures are narrower' awk "BEGIN { exit !($(wide stays.svg) < $(wide walks.svg)) }"
 ok 'the method to the letter has pictures too' draw -o paper.svg --size 60 --frames 8,9 --method paper --show patches
 well_formed() { # tags that open close
     for f in figure6.svg list.svg both.svg paper.svg; do

@@ -28,6 +28,9 @@ is 'paths are seen from the file, values are taken' "$(find made -type f ! -name
     'made/summary.csv made/walk/skirt.0002.obj made/walk/skirt.0005.obj made/walk/stats.csv '
 dress motions/walk.bvh -g "$skirt" -o typed --frames 2:5:3 --format obj --no-body --no-times
 ok 'and writes the bytes of that command line' diff -r made typed
+printf 'motion %s\ngarment %s\noutput made\n' "$PWD/motions/walk.bvh" "$skirt" >jobs/far.job
+ok 'a path from the root is taken as it is' dress --job jobs/far.job --frames 1 --format none
+is 'and one that is not, not' "$(ls -d jobs/made)" jobs/made
 (cd jobs && dress --job plain.job -f)
 ok 'from the folder itself' diff -r made typed
 dress -f --job - <<'JOB'

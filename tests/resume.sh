@@ -80,6 +80,27 @@ asf() {
 }
 ok 'a skeleton beside a BVH file is none of its inputs' asf
 rm in/x.asf
+real=$KITSUKE_MOTIONS/cmu_02_03_run.amc
+if [ -f "$real" ]; then
+    mkdir acclaim
+    cp "$real" acclaim/x.amc
+    cp "${real%_03*}.asf" acclaim/y.asf
+    skeleton() { # skeleton PATTERN ARGUMENT...: the last line of a resumed run
+        pattern=$1
+        shift
+        "$KITSUKE" dress acclaim/x.amc -g skirt.garment -o amc --frames 1:2 --format none --resume "$@" 2>err || return 1
+        says "$pattern"
+    }
+    for way in '' '--asf acclaim/y.asf'; do
+        # shellcheck disable=SC2086  # an option and its value, or nothing
+        ok "a skeleton is an input ${way:+(--asf)}" eval 'skeleton ", 2 frames" $way && skeleton "1 before" $way'
+        echo '# changed' >>acclaim/y.asf
+        # shellcheck disable=SC2086
+        ok "and its motion is dressed anew when it changes ${way:+(--asf)}" skeleton ', 2 frames' $way
+    done
+else
+    skip 'a skeleton is an input' 'no motions'
+fi
 ok '--strict is asked of what was done before too' again '\(4 before\)' --strict
 
 # Killed, then resumed

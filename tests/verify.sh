@@ -48,6 +48,23 @@ ok 'other parts only' verify 2 --garment 'b.*.obj' --body 'a.*.obj' --parts box,
 ok 'a part that is not there, with those that are' says "has no group 'lid'; it has box"
 ok '--parts' verify 1 --garment 'b.*.obj' --body 'a.*.obj' --parts box
 
+# A strip of two halves that are GAP millimetres apart along the seam
+strip() {
+    awk -v gap="$1" 'BEGIN {
+        for (half = 0; half < 2; half++) for (y = 0; y <= 10; y++) for (x = 0; x <= 1; x++)
+            print "v", (half ? 100 + gap : 0) + 100 * x, 20 * y, 5000
+        for (half = 0; half < 2; half++) for (y = 0; y < 10; y++) {
+            k = 22 * half + 2 * y + 1
+            print "f", k, k + 1, k + 3, k + 2 } }' >strip.obj
+}
+strip 1
+ok 'a seam that gapes by a millimetre: exit 1' verify 1 --garment strip.obj --body a.0001.obj --unit mm
+is 'is a crack, on both sides' "$(told cracks)" '22 '
+strip 3
+ok 'three millimetres are a slit: exit 0' verify 0 --garment strip.obj --body a.0001.obj --unit mm
+strip 0
+ok 'where the halves meet nothing gapes: exit 0' verify 0 --garment strip.obj --body a.0001.obj --unit mm
+
 # Frames
 for n in 0001 0002 0003 0004 0005; do cube m.$n.obj 1.5 2; cube body.$n.obj 0 1; done
 for pattern in 'm.*.obj' 'm.####.obj' 'm.%04d.obj' 'm.%d.obj'; do
