@@ -36,7 +36,6 @@ static void open(Cut *t) {
     c->push.coarser = 1;
     push_start(&c->push, &s->posed, t->of.root, &t->of.leaves, &t->of.sheet);
     push_rest(&c->push);
-    slopes_start(&t->slopes);
 }
 
 /* Bumps anywhere, and in every tenth place no room. */
@@ -85,7 +84,8 @@ static bool is_held(Cut *t, int v) {
     for (int k = 0; k < n; k++) {
         Vec3 to = vec_sub(p->point[beside[k]], p->point[v]);
         double ahead = (t->depth[0][v] + 1e-5 - t->depth[0][beside[k]]) * vec_dot(way, to);
-        if (too_long(t, v, beside[k], deeper, moved(t, beside[k])) > 0 || ahead > SHRINKS * vec_dot(to, to)) return true;
+        bool is_past = ahead > SHRINKS * vec_dot(to, to);
+        if (is_past || too_long(t, v, beside[k], deeper, moved(t, beside[k])) > 0) return true;
     }
     return false;
 }

@@ -28,7 +28,7 @@ typedef struct {
 } HollowPoint;
 
 /* Private. Points that follow each other: the ball round them, and the deepest. */
-enum { HOLLOW_BLOCK = 16 };
+enum { HOLLOW_BLOCK = 24 };
 typedef struct {
     const HollowPoint *point;
     int n;

@@ -9,14 +9,11 @@ typedef struct { int v[2]; double step[2]; } Slope;
 
 typedef struct {
     Slope *slope;
-    int *first_beside, *beside; /* the neighbours of each vertex, filled when they are asked for */
-    bool beside_known;
+    int *first_beside, *beside; /* the neighbours of each vertex */
+    int made;                   /* Sheet.made of the sheet whose neighbours these are */
 } Slopes;
 
 MUST_CHECK bool slopes_reserve(Slopes *s, const Lattice *lattice, Arena *arena, Error *e);
-
-/* Begins with a sheet. */
-void slopes_start(Slopes *s);
 
 /* The neighbours of a vertex: n of them. */
 const int *slopes_beside(Slopes *s, const Sheet *sheet, int vertex, int *n);

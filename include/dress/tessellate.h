@@ -8,6 +8,7 @@
 typedef struct {
     const Lattice *lattice;
     int nvertices, ntriangles, nedges;
+    int made;                /* how many sheets it has been, so that who remembers one knows another */
     int *place;              /* vertex -> lattice place */
     int *vertex;             /* lattice place -> vertex, -1 where the mesh has none */
     int *lone, nlone;        /* vertices that are on no grid of their owner's leaves: only a finer neighbour has them */

@@ -55,7 +55,6 @@ void dent_carry(Denter *d, const Field *last, const BodyFrame *body, double dt, 
 
 void dent_start(Denter *d) {
     dent_round(d);
-    slopes_start(&d->slopes);
     if (d->any_spare) memset(d->spare, 0, (size_t)d->nplaces * sizeof *d->spare);
     d->any_spare = false;
 }

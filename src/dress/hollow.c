@@ -62,14 +62,16 @@ static Vec3 inwards_near(const Push *p, unsigned parts) {
     const BodyFrame *body = p->body;
     double near = NEAR * p->field.scale;
     Vec3 sum = {0, 0, 0};
-    for (int v = 0; v < p->sheet->nvertices; v++)
-        for (unsigned left = parts; left; left &= left - 1) {
-            int k = near_first(left), place = p->sheet->place[v];
+    for (; parts; parts &= parts - 1) {
+        int k = near_first(parts);
+        for (int v = 0; v < p->sheet->nvertices; v++) {
+            if (body_frame_far(body, k, p->point[v], near)) continue;
+            int place = p->sheet->place[v];
             bool is_own = p->field.lattice->collide[place] & part_bit(body, k);
-            if (is_own || body_frame_far(body, k, p->point[v], near)) continue;
-            double distance = body_frame_distance(body, k, p->point[v], near, NULL);
+            double distance = is_own ? near : body_frame_distance(body, k, p->point[v], near, NULL);
             if (distance < near) sum = vec_mad(sum, inwards(p, place), near - distance);
         }
+    }
     return vec_unit_or(sum, vec(0, 0, 0));
 }
 

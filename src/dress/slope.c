@@ -19,8 +19,6 @@ bool slopes_reserve(Slopes *s, const Lattice *lattice, Arena *arena, Error *e) {
     return s->slope && s->first_beside && s->beside;
 }
 
-void slopes_start(Slopes *s) { s->beside_known = false; }
-
 /* Counts the edges of each vertex, then lists their other ends. */
 static void list_beside(Slopes *s, const Sheet *sheet) {
     int *first = s->first_beside;
@@ -29,11 +27,11 @@ static void list_beside(Slopes *s, const Sheet *sheet) {
     for (int v = 1; v <= sheet->nvertices; v++) first[v] += first[v - 1];
     for (int k = 0; k < 2 * sheet->nedges; k++)
         s->beside[--first[sheet->edge[k / 2].v[k % 2]]] = sheet->edge[k / 2].v[1 - k % 2];
-    s->beside_known = true;
+    s->made = sheet->made;
 }
 
 const int *slopes_beside(Slopes *s, const Sheet *sheet, int vertex, int *n) {
-    if (!s->beside_known) list_beside(s, sheet);
+    if (s->made != sheet->made) list_beside(s, sheet);
     *n = s->first_beside[vertex + 1] - s->first_beside[vertex];
     return s->beside + s->first_beside[vertex];
 }

@@ -118,6 +118,7 @@ void tessellate(Sheet *s, const Leaves *leaves) {
     int cells = 1 << l->depth;
     if (s->ntriangles && memcmp(s->laid, leaves->level, (size_t)lattice_cells(l)) == 0) return;
     memcpy(s->laid, leaves->level, (size_t)lattice_cells(l));
+    s->made++;
     s->nvertices = s->ntriangles = s->nedges = 0;
     memset(s->vertex, -1, (size_t)l->nplaces * sizeof *s->vertex);
     for (int pass = 0; pass < 2; pass++) {
