@@ -88,8 +88,8 @@ if [ -f "$real" ]; then
     skeleton() { # skeleton PATTERN ARGUMENT...: the last line of a resumed run
         pattern=$1
         shift
-        "$KITSUKE" dress acclaim/x.amc -g skirt.garment -o amc --frames 1:2 --format none --resume "$@" 2>err || return 1
-        says "$pattern"
+        "$KITSUKE" dress acclaim/x.amc -g skirt.garment -o amc --frames 1:2 --format none --resume "$@" 2>err &&
+            says "$pattern"
     }
     for way in '' '--asf acclaim/y.asf'; do
         # shellcheck disable=SC2086  # an option and its value, or nothing

@@ -15,7 +15,8 @@ MUST_CHECK bool summary_path(const Settings *s, char path[OUTPUT_PATH_MAX], Erro
    run. ERR_OUTPUT. */
 MUST_CHECK bool summary_lock(const Settings *s, Lock *lock, Error *e);
 
-/* Writes the file: the rows of each motion in the order of the inputs. total: motions of the list that these are a shard of. ERR_OUTPUT. */
+/* Writes the file: the rows of each motion in the order of the inputs. total: motions of the list that these are a
+   shard of. ERR_OUTPUT. */
 MUST_CHECK bool summary_write(const Wardrobe *w, const Input *input, const JobResult *result, int count, int total,
                               Error *e);
 
