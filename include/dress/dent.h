@@ -11,12 +11,13 @@ typedef struct {
     bool is_off;           /* press nothing in, since that did harm in an earlier attempt */
     Hollow hollow;         /* of one limb after the other */
     Slopes slopes;
-    double *depth[LIMBS];   /* per vertex: how far dent_all has pressed it in along Field.way, metres */
-    double *held[LIMBS];    /* per place: how far it was pressed in in the frame that this one goes on from, faded, */
-    Vec3 held_way[LIMBS];   /* and in which direction */
-    bool is_held[LIMBS];    /* is there anything of it? */
-    double *wanted[LIMBS]; /* the same before it was levelled */
-    bool *is_out_of_reach; /* per vertex: would it have to go farther than the cap, or stretch an edge too far? */
+    double *depth[LIMBS];  /* per vertex: how far dent_all has pressed it in along Field.way, metres */
+    double *held[LIMBS];   /* per place: how far it was pressed in in the frame that this one goes on from, faded, */
+    Vec3 held_way[LIMBS];  /* and in which direction */
+    bool is_held[LIMBS];   /* is there anything of it? */
+    double *wanted[LIMBS]; /* depth before it was levelled */
+    bool *is_out_of_reach; /* per place: would it have to go farther than the cap, or stretch an edge too far? All if
+                              nothing is pressed in */
     double *spare;         /* per place: extra clearance from own parts (metres), where an edge between the hollow's
                               vertices crossed one */
     bool any_spare;

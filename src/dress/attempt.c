@@ -163,7 +163,7 @@ static bool has_no_room(const BodyFrame *body, unsigned worn, int part, Vec3 at,
 /* Would cloth have to go beyond its cap there, or be stretched too far? */
 static bool is_out_of_reach(const Cloth *c, const TesterHit *hit) {
     bool any = false;
-    for (int k = 0; k < hit->n; k++) any |= c->settler.denter.is_out_of_reach[hit->v[k]];
+    for (int k = 0; k < hit->n; k++) any |= c->settler.denter.is_out_of_reach[c->sheet.place[hit->v[k]]];
     return any;
 }
 

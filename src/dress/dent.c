@@ -74,7 +74,7 @@ static bool find_depths(Denter *d, const Push *p, const Touch *t, Limb limb) {
         int place = p->sheet->place[v];
         if (d->spare[place] > MOST_BACK * p->field.scale) continue;
         d->depth[limb][v] = fmax(hollow_depth(&d->hollow, p, v), d->held[limb][place]);
-        d->is_out_of_reach[v] |= d->depth[limb][v] >= p->field.cap;
+        d->is_out_of_reach[place] |= d->depth[limb][v] >= p->field.cap;
     }
     return true;
 }
@@ -106,7 +106,7 @@ static void level(Denter *d, const Push *p, const bool has[LIMBS], bool *capped)
     for (int limb = 0; limb < LIMBS; limb++) memcpy(d->wanted[limb], d->depth[limb], (size_t)n * sizeof(double));
     for (int limb = 0; limb < LIMBS; limb++) {
         if (has[limb] && !slopes_level(&d->slopes, p, (Limb)limb, d->wanted, d->depth[limb])) *capped = true;
-        for (int v = 0; v < n; v++) d->is_out_of_reach[v] |= d->depth[limb][v] < d->wanted[limb][v];
+        for (int v = 0; v < n; v++) d->is_out_of_reach[p->sheet->place[v]] |= d->depth[limb][v] < d->wanted[limb][v];
     }
 }
 
@@ -120,7 +120,7 @@ void dent_all(Denter *d, Push *p, bool *capped) {
     const Sheet *sheet = p->sheet;
     Touch t = touch_find(p);
     bool has[LIMBS], any = false;
-    memset(d->is_out_of_reach, 0, (size_t)sheet->nvertices * sizeof *d->is_out_of_reach);
+    memset(d->is_out_of_reach, d->is_off, (size_t)d->nplaces * sizeof *d->is_out_of_reach);
     for (int limb = 0; limb < LIMBS; limb++) {
         p->field.way[limb] = t.parts[limb] ? t.way[limb] : d->held_way[limb];
         has[limb] = find_depths(d, p, &t, (Limb)limb);
@@ -134,7 +134,7 @@ void dent_all(Denter *d, Push *p, bool *capped) {
         bool is_short = false;
         if (field_is_zero(dents_sum(hollows))) continue;
         set_dents(p, v, hollows, &is_short);
-        d->is_out_of_reach[v] |= is_short;
+        d->is_out_of_reach[sheet->place[v]] |= is_short;
         *capped |= is_short;
     }
 }
@@ -148,7 +148,7 @@ void dent_add(Denter *d, Push *p, int vertex, int part, Vec3 by, double most, bo
     Vec3 more = vec_sub(vec_mad(dents.by[limb], by, share), hollow);
     dents.by[limb] = vec_add(hollow, field_limit(more, most, &is_short));
     set_dents(p, vertex, dents, &is_short);
-    d->is_out_of_reach[vertex] |= is_short;
+    d->is_out_of_reach[p->sheet->place[vertex]] |= is_short;
     *capped |= is_short;
 }
 
@@ -171,7 +171,7 @@ static void draw_along(Denter *d, Push *p, int vertex) {
             double share = slopes_keeps(p, beside[i], d->loose[k]);
             if (share > LEAST) continue;
             shorten(p, beside[i], share);
-            d->is_out_of_reach[beside[i]] = true;
+            d->is_out_of_reach[p->sheet->place[beside[i]]] = true;
             d->loose[d->nloose++] = beside[i];
         }
     }
