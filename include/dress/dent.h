@@ -14,6 +14,7 @@ typedef struct {
     double *depth[LIMBS];  /* per vertex: how far dent_all has pressed it in along Field.way, metres */
     double *held[LIMBS];   /* per place: how far it was pressed in in the frame that this one goes on from, faded, */
     Vec3 held_way[LIMBS];  /* and in which direction */
+    double turn;           /* by how much that may turn in this frame, radians */
     bool is_held[LIMBS];   /* is there anything of it? */
     double *wanted[LIMBS]; /* depth before it was levelled */
     bool *is_out_of_reach; /* per place: would it have to go farther than the cap, or stretch an edge too far? All if

@@ -16,6 +16,8 @@
 static const double CHORD = 0.03;     /* share of its depth added to the clearance: facets cut across a round hollow */
 static const double BACK = 0.005;     /* metres on 1.70 m that a vertex is taken back the first time; */
 static const double MOST_BACK = 0.03; /* after so much in all it is no longer pressed in */
+static const double TURNS = 15;       /* radians a second by which the direction of a limb may turn: with much less it
+                                         would press where the limb no longer is */
 static const double LEAST = 0.999;    /* cloth follows if it may keep no more than this share of its dent */
 enum { LOOSE_A_PLACE = 4 };           /* so often may it do so for each place */
 
@@ -38,6 +40,7 @@ bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e) {
 
 void dent_carry(Denter *d, const Field *last, const BodyFrame *body, double dt, bool goes_on) {
     Carry carry = field_carry_to(last, body, dt);
+    d->turn = TURNS * dt;
     for (int limb = 0; limb < LIMBS; limb++) {
         const FieldSpots *dent = &last->dent[limb];
         if (d->is_held[limb]) memset(d->held[limb], 0, (size_t)d->nplaces * sizeof(double));
@@ -116,13 +119,23 @@ static void set_dents(Push *p, int vertex, Dents dents, bool *capped) {
     field_set_dents(&p->field, place, dents);
 }
 
+/* The direction in which a limb presses. It comes from the cloth, which is folded and may turn in a moment. So while
+   there is a hollow of the frame before, the direction goes on from what it was then. */
+static Vec3 way_of(const Denter *d, const Touch *t, Limb limb) {
+    if (!t->parts[limb] || !d->is_held[limb]) return t->parts[limb] ? t->way[limb] : d->held_way[limb];
+    Vec3 from = d->held_way[limb], to = t->way[limb], axis = vec_cross(from, to);
+    double angle = atan2(vec_len(axis), vec_dot(from, to));
+    if (angle <= d->turn) return to;
+    return mat_apply(mat_axis_angle(vec_unit_or(axis, vec(0, 1, 0)), d->turn), from);
+}
+
 void dent_all(Denter *d, Push *p, bool *capped) {
     const Sheet *sheet = p->sheet;
     Touch t = touch_find(p);
     bool has[LIMBS], any = false;
     memset(d->is_out_of_reach, d->is_off, (size_t)d->nplaces * sizeof *d->is_out_of_reach);
     for (int limb = 0; limb < LIMBS; limb++) {
-        p->field.way[limb] = t.parts[limb] ? t.way[limb] : d->held_way[limb];
+        p->field.way[limb] = way_of(d, &t, (Limb)limb);
         has[limb] = find_depths(d, p, &t, (Limb)limb);
         any |= has[limb];
     }
