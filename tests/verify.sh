@@ -100,7 +100,10 @@ ok 'is no mesh' says 'body\.0005\.obj: error: no triangles'
 : >body.0001.obj
 ok 'an empty file: exit 3' verify 3 --garment 'm.*.obj' --body 'body.*.obj'
 ok 'a folder that is not there: exit 3' verify 3 nowhere
-mkdir bare
+mkdir bare lone
+cube lone/body.0001.obj 0 1
+ok 'a body without garments: exit 3' verify 3 lone
+ok 'its message' says 'lone: error: a body without garments'
 ok 'a folder without meshes: exit 3' verify 3 bare
 ok 'its message' says "no meshes .* in 'bare'"
 cube bare/cloth.0001.obj 0 1
