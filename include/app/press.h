@@ -49,8 +49,8 @@ MUST_CHECK bool press_open(Press *p, int threads, pthread_mutex_t *lock, pthread
 void press_close(Press *p);
 
 /* Writes a mesh, or copies it for somebody who is free to. Errors of earlier meshes of the tally
-   come up here too. */
-MUST_CHECK bool press_put(Press *p, Pen *pen, const PressOrder *order, const Mesh *mesh, Error *e);
+   come up here too. Who does not look may ask press_good later: the tally keeps the first error. */
+bool press_put(Press *p, Pen *pen, const PressOrder *order, const Mesh *mesh, Error *e);
 
 /* False, and *e tells, if a mesh of the tally has failed by now. */
 MUST_CHECK bool press_good(Press *p, const PressTally *tally, Error *e);

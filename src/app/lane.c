@@ -48,14 +48,14 @@ static bool relax_arms(Lane *lane, const LaneWork *work, Take *take, Error *e) {
     return take_relax(take, &w->body, &lane->padding, &lane->arena, e);
 }
 
-/* Hands a mesh of the run to the press. What goes wrong the tally remembers. */
+/* Hands a mesh of the run to the press. What goes wrong the tally keeps, for dress_and_pose to find. */
 static void put(Run *r, Pen *pen, PressOrder order, const Mesh *mesh) {
-    Error e = {0};
+    Error kept_by_tally = {0};
     order.settings = r->settings;
     order.folder = r->work->folder;
     order.metre = r->work->unit;
     order.tally = &r->tally;
-    if (!press_put(r->work->press, pen, &order, mesh, &e)) return;
+    press_put(r->work->press, pen, &order, mesh, &kept_by_tally);
 }
 
 /* What is done at the same time. row: one for each garment; NULL: nothing is to be written. next: NULL
