@@ -154,6 +154,12 @@ cp -r fast/paper-walk two/brief
 rm two/brief/*.000[23].*
 ok 'frames that one of two motions does not have' verify 2 two --frames 2:3 --parts $hips
 is 'are those of the other' "$(joined motion table)" 'long long '
+if [ -e /dev/full ]; then
+    full() { "$KITSUKE" verify fast >/dev/full 2>err; [ $? -eq 4 ] && says 'standard output: No space left'; }
+    ok 'a full disk: exit 4, and why' full
+else
+    skip 'a full disk' 'no /dev/full'
+fi
 ok 'a folder of one motion' verify 0 out/paper-walk --parts $hips
 is 'gives the same rows' "$(cut -d, -f 2- table)" "$(cut -d, -f 2- whole)"
 mkdir decoded

@@ -2,6 +2,7 @@
    this program or another, is not asked.
 
    A frame that cannot be read is an error on stderr, and the others are tested all the same. */
+#include <errno.h>
 #include <string.h>
 
 #include "app/commands.h"
@@ -317,10 +318,9 @@ ErrorKind cmd_verify(const Settings *s, Error *e) {
         run.reel = &reel[i];
         good = verify_reel(&run, &arena, e);
     }
-    if (good && !s->quiet) {
-        fflush(stdout);
-        print_summary(&run);
-    }
+    if (good && fflush(stdout) != 0)
+        good = error_set(e, ERR_OUTPUT, "cannot write to standard output: %s", strerror(errno));
+    if (good && !s->quiet) print_summary(&run);
     if (!run.worst && run.bad_meshes) run.worst = ERR_CHECK;
     for (int k = 0; k < FRAMES_KEPT; k++) arena_free(&run.kept[k].arena);
     arena_free(&arena);
