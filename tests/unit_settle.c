@@ -30,7 +30,7 @@ static void push(Pushed *p, const char *name, double share) {
     Pose pose = figure_rest_pose();
     need(s, cloth_reserve(c, &p->of.fit, &p->of.lattice, &s->arena, &s->error));
     escape_bind(&c->push.escape, p->of.root);
-    scene_leg(s, &pose, true, 100, 120);
+    scene_leg(s, &pose, true, 120, 120);
     scene_leg(s, &pose, false, 60, 110);
     body_frame_pose(&s->posed, &pose);
     follow_pose(&p->of.follower, &pose, p->of.root);

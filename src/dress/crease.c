@@ -23,7 +23,7 @@ static bool is_hinge(Role bone, Role on) {
    joint, but there the flesh of both sides meets as the sides of a mitre do: on the line that halves the angle between
    the bones, farther out by 1 / sin of that half. */
 static Vec3 mitre(const Figure *figure, const Pose *pose, Role bone, Role on, Vec3 point) {
-    static const double MOST = 1.6;
+    static const double MOST = 2.2;
     Vec3 joint = figure->start[bone], down = vec_sub(figure->end[bone], joint);
     Vec3 up = on == ROLE_PELVIS ? vec(0, 1, 0) : vec_sub(figure->start[on], joint);
     Vec3 halving = vec_add(mat_apply(pose->bone[bone].r, vec_unit_or(down, vec(0, -1, 0))),

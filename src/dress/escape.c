@@ -45,20 +45,6 @@ static double room_for(const Escape *s, const BodyFrame *body, EscapePoint *p, i
     return yields ? distance : p->clearance;
 }
 
-/* For cloth in the fold of a knee or elbow whose place is on the other bone: its side of this part is beyond the plane
-   between the two bones. above: is the place before the part's start, or behind its end? */
-static bool side_in_fold(const BodyFrame *body, int part, Vec3 x, bool above, Vec3 *side) {
-    const Contacts *c = &body->contacts[part];
-    for (int k = 0; k < c->n; k++) {
-        const Contact *to = &c->contact[k];
-        Role role = body->body->part[part].role, other = body->body->part[to->other].role;
-        if (!to->fold || role_limb(role) != role_limb(other) || (other < role) != above) continue;
-        *side = vec_scale(to->across, -1);
-        return vec_dot(vec_sub(x, to->fold->joint), to->fold->inwards) > 0;
-    }
-    return false;
-}
-
 /* Feet stand across the leg, so a place of trousers is on no side of their axis. */
 static bool has_side(Role role) {
     return role != ROLE_LEFT_FOOT && role != ROLE_RIGHT_FOOT && role != ROLE_LEFT_TOE && role != ROLE_RIGHT_TOE;
@@ -70,8 +56,7 @@ static bool side_of(const Escape *s, const BodyFrame *body, const EscapePoint *p
     const BodyPart *b = &body->body->part[part];
     if (!has_side(b->role)) return false;
     Vec3 q = rigid_unapply(b->frame, s->rest[p->place]);
-    if (q.y < 0 || q.y > b->length)
-        return !s->lattice->fit->garment->loose && side_in_fold(body, part, p->point.at, q.y < 0, side);
+    if (q.y < 0 || q.y > b->length) return false;
     Section c = body_section_at(b, q.y);
     *side = mat_apply(body->to_world[part], vec_unit_or(vec(q.x - c.x, 0, q.z - c.z), vec(1, 0, 0)));
     return true;

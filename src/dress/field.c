@@ -7,7 +7,7 @@
 static const double FADE = 0.8;    /* share of a displacement that is left after 1/30 s, */
 static const double SINK = 0.12;   /* but cloth goes back no faster than that, metres a second on 1.70 m */
 static const double FELT = 0.0002; /* metres on 1.70 m: a displacement below this is dropped */
-static const double CAP_LOOSE = 7, CAP_TIGHT = 16; /* the cap is the height divided by this */
+static const double CAP_LOOSE = 7, CAP_TIGHT = 20; /* the cap is the height divided by this */
 
 bool field_reserve_spots(FieldSpots *s, int nplaces, Arena *arena, Error *e) {
     s->at = ARENA_NEW(arena, Vec3, nplaces, e);
