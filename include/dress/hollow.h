@@ -9,6 +9,7 @@
 typedef struct {
     unsigned parts[LIMBS]; /* its bare parts that press, bits 1 << part; 0 if it touches nothing */
     Vec3 way[LIMBS];       /* the direction in which it presses, unit */
+    double missing[LIMBS]; /* the most of its clearance that is missing to cloth, metres */
 } Touch;
 
 Touch touch_find(const Push *p);
@@ -39,6 +40,7 @@ typedef struct {
 /* The hollow of a limb. */
 typedef struct {
     Vec3 way;
+    double share;         /* of its depth: less than 1 where the limb only begins to touch */
     double wide, cap;     /* metres: its radius where it is not deep, and the most that it may be deep */
     HollowPoint *point;
     HollowBlock *block, all;

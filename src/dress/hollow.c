@@ -19,6 +19,8 @@ static const double POINTED = 0.3;    /* squared sine between forearm and direct
                                          rather than lies on it */
 static const double TURNED = -0.3;    /* cosine between skin and direction: skin turned away more has deeper skin behind
                                          it */
+static const double BEGINS = 0.012;   /* metres on 1.70 m: a limb that is so much too near presses in full, one that only
+                                         begins to touch presses less, so that nothing jumps */
 static const double BEYOND = 1.4;     /* times the cap: skin that is so much farther in is no longer at this cloth */
 
 bool hollow_reserve(Hollow *h, Arena *arena, Error *e) {
@@ -52,8 +54,11 @@ static void add_touching(Touch *t, const Push *p, int vertex, unsigned parts) {
         int k = near_first(parts);
         bool is_own = p->field.lattice->collide[p->sheet->place[vertex]] & part_bit(body, k);
         if (is_own || body_frame_far(body, k, p->point[vertex], clearance)) continue;
-        if (body_frame_distance(body, k, p->point[vertex], clearance, NULL) < clearance)
-            t->parts[limb_of(body, k)] |= 1u << k;
+        double missing = clearance - body_frame_distance(body, k, p->point[vertex], clearance, NULL);
+        if (missing <= 0) continue;
+        Limb limb = limb_of(body, k);
+        t->parts[limb] |= 1u << k;
+        t->missing[limb] = fmax(t->missing[limb], missing);
     }
 }
 
@@ -143,6 +148,7 @@ void hollow_find(Hollow *h, const Push *p, const Touch *t, Limb limb) {
     double metre = 1 / body->unit;
     int total = 0;
     h->way = t->way[limb];
+    h->share = smoothstep(0, BEGINS * p->field.scale, t->missing[limb]);
     h->wide = WIDE * p->field.scale;
     h->cap = p->field.cap;
     h->npoints = h->nblocks = 0;
@@ -205,5 +211,5 @@ double hollow_depth(const Hollow *h, const Push *p, int vertex) {
             if (at->deep - here > depth)
                 depth = depth_beside(h, asked(h, at->deep - here), aside2(h, at->at, x), depth);
     }
-    return depth * share;
+    return depth * share * h->share;
 }
