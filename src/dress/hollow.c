@@ -19,8 +19,8 @@ static const double POINTED = 0.3;    /* squared sine between forearm and direct
                                          rather than lies on it */
 static const double TURNED = -0.3;    /* cosine between skin and direction: skin turned away more has deeper skin behind
                                          it */
-static const double BEGINS = 0.012;   /* metres on 1.70 m: a limb that is so much too near presses in full, one that only
-                                         begins to touch presses less, so that nothing jumps */
+static const double BEGINS = 0.012;   /* metres on 1.70 m: a limb that is so much too near presses in full, one that
+                                         only begins to touch presses less, so that nothing jumps */
 static const double BEYOND = 1.4;     /* times the cap: skin that is so much farther in is no longer at this cloth */
 
 bool hollow_reserve(Hollow *h, Arena *arena, Error *e) {
