@@ -53,6 +53,14 @@ bool follow_reserve(Follower *f, const Fit *fit, const Figure *figure, const Bod
     return true;
 }
 
+/* How far a thigh has turned about itself against the pelvis; radians. */
+static double twist_of(const Follower *f, const Pose *pose, Role thigh) {
+    Vec3 axis = vec_unit_or(vec_sub(f->figure->end[thigh], f->figure->start[thigh]), vec(0, -1, 0));
+    Quat q = quat_from_mat(mat_mul(mat_transpose(pose->bone[ROLE_PELVIS].r), pose->bone[thigh].r));
+    double about = vec_dot(vec(q.x, q.y, q.z), axis);
+    return 2 * atan2(q.w < 0 ? -about : about, fabs(q.w));
+}
+
 /* Of the two quaternions of a bone's rotation, picks the one with which a blend between bones goes the right way
    round. A bone has turned the shorter way from the bone that it hangs on; but a thigh the shorter way from sitting,
    since hips bend forwards by 180 degrees and more, but hardly backwards. */
@@ -68,18 +76,31 @@ static void find_turns(Follower *f, const Pose *pose) {
             like = quat_like(quat_from_mat(seat), like);
         }
         f->turn[r] = quat_like(quat_from_mat(pose->bone[r].r), like);
+        if (is_thigh) f->twist[r == ROLE_RIGHT_THIGH] = twist_of(f, pose, (Role)r);
     }
+}
+
+/* A thigh that turns about itself takes the cloth along little by little: not at all at the hip, wholly at the knee.
+   Returns how a point moves with a bone; rest: where it is in the canonical stance. */
+static Rigid bone_at(const Follower *f, const Pose *pose, Role bone, Vec3 rest) {
+    if (bone != ROLE_LEFT_THIGH && bone != ROLE_RIGHT_THIGH) return pose->bone[bone];
+    Vec3 hip = f->figure->start[bone], along = vec_sub(f->figure->end[bone], hip);
+    double down = vec_dot(vec_sub(rest, hip), along) / vec_dot(along, along);
+    double back = -f->twist[bone == ROLE_RIGHT_THIGH] * (1 - fmin(fmax(down, 0), 1));
+    Mat3 turn = mat_axis_angle(vec_unit_or(along, vec(0, -1, 0)), back);
+    return rigid_mul(pose->bone[bone], (Rigid){turn, vec_sub(hip, mat_apply(turn, hip))});
 }
 
 /* The blend of weighted bones as one rigid motion, by dual quaternions (Kavan et al. 2007): between the two bones of a
    joint it turns about the joint, so the ring at a knee keeps its width however far the knee bends. */
-static Rigid blend(const Follower *f, const Pose *pose, const Binding *b) {
+static Rigid blend(const Follower *f, const Pose *pose, const Binding *b, Vec3 rest) {
     Quat mean = {0, 0, 0, 0};
     Vec3 dual = {0, 0, 0}; /* vector and scalar part of the sum of t q, that is twice the dual part */
     double dual_w = 0;
     for (int i = 0; i < b->n; i++) {
-        Quat q = f->turn[b->bone[i]];
-        Vec3 v = {q.x, q.y, q.z}, t = pose->bone[b->bone[i]].t;
+        Rigid g = bone_at(f, pose, b->bone[i], rest);
+        Quat q = quat_like(quat_from_mat(g.r), f->turn[b->bone[i]]);
+        Vec3 v = {q.x, q.y, q.z}, t = g.t;
         double s = b->weight[i];
         mean = (Quat){mean.w + s * q.w, mean.x + s * q.x, mean.y + s * q.y, mean.z + s * q.z};
         dual = vec_mad(dual, vec_add(vec_scale(t, q.w), vec_cross(t, v)), s);
@@ -97,8 +118,8 @@ static Rigid blend(const Follower *f, const Pose *pose, const Binding *b) {
 static Vec3 shaped_handle(const Follower *f, const FitCurve *curve, int end, const Pose *pose, Vec3 node) {
     static const double LEAST = 0.3;
     Vec3 rest = curve->rest[1 + end], arm = vec_sub(rest, curve->rest[3 * end]);
-    Vec3 wanted = rigid_apply(blend(f, pose, &curve->middle), rest);
-    Vec3 direction = vec_unit_or(mat_apply(blend(f, pose, &curve->turn[end]).r, arm), arm);
+    Vec3 wanted = rigid_apply(blend(f, pose, &curve->middle, rest), rest);
+    Vec3 direction = vec_unit_or(mat_apply(blend(f, pose, &curve->turn[end], curve->rest[3 * end]).r, arm), arm);
     return vec_mad(node, direction, fmax(vec_dot(vec_sub(wanted, node), direction), LEAST * vec_len(arm)));
 }
 
@@ -121,8 +142,8 @@ static void curves_by_bones(Follower *f, const Pose *pose) {
         const FitCurve *curve = &f->fit->curve[c];
         for (int end = 0; end < 2; end++) {
             const FitNode *node = &f->fit->node[curve->node[end]];
-            Rigid g = blend(f, pose, &node->binding);
             Vec3 rest = curve->rest[3 * end], handle = vec_sub(curve->rest[1 + end], rest);
+            Rigid g = blend(f, pose, &node->binding, rest);
             Vec3 at = f->curve[c][3 * end] = crease_mitre(f->figure, pose, &node->binding, rigid_apply(g, rest));
             f->curve[c][1 + end] =
                 curve->middle.n ? shaped_handle(f, curve, end, pose, at) : vec_add(at, mat_apply(g.r, handle));
