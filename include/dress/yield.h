@@ -37,6 +37,10 @@ void yield_fold(const Fold *fold, Contact *above, Contact *below);
    yield_by. */
 bool yield_may(const Contact *c, Vec3 normal, Vec3 away);
 
+/* Where the other part is farther than this from a point, a part does not give way to it; metres. distance: of the
+   point from the part itself. */
+double yield_within(const Contact *c, double room, Vec3 at, double distance);
+
 /* A point, and its distances from a part and from another that presses on it, each as if nothing pressed. */
 typedef struct {
     Vec3 at;                /* world, metres */

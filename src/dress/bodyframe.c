@@ -44,15 +44,15 @@ static inline double own_distance(const BodyFrame *f, int part, BodyPoint *p, do
    if not NULL, becomes the part's normal after that. */
 static double give_way(const BodyFrame *f, int part, BodyPoint *p, Meeting *m, Vec3 *normal) {
     const Contacts *contacts = &f->contacts[part];
-    double far = f->room - m->distance, most = 0;
+    double most = 0;
     Meeting with_most;
     const Contact *to = NULL;
     for (int k = 0; k < contacts->n; k++) {
         const Contact *contact = &contacts->contact[k];
         if (contact->most <= most) continue;
-        double reach = fmax(far, contact->reach);
-        m->other = own_distance(f, contact->other, p, reach, &m->away);
-        double by = m->other < reach ? yield_by(contact, f->room, m) : 0;
+        double far = yield_within(contact, f->room, m->at, m->distance);
+        m->other = own_distance(f, contact->other, p, far, &m->away);
+        double by = m->other < far ? yield_by(contact, f->room, m) : 0;
         if (by <= most) continue;
         most = by;
         to = contact;

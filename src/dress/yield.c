@@ -96,31 +96,36 @@ void yield_fold(const Fold *fold, Contact *above, Contact *below) {
     enter_fold(fold, vec_scale(fold->across, -1), below);
 }
 
-/* The surfaces at which a part ends in a fold, as distances of a point from them: half the room before the plane
-   that halves the bend (wall); before the steep wall towards the joint, where both bones are one (below); and where
-   the other part is no longer within reach (near). */
-typedef struct { double wall, below, near; } FoldEnd;
-static FoldEnd end_in_fold(const Contact *c, double room, const Meeting *m) {
-    Vec3 r = vec_sub(m->at, c->fold->joint);
+/* The walls at which a part ends in a fold, as distances of a point from them: half the room before the plane that
+   halves the bend (wall), and before the steep wall towards the joint, where both bones are one (below). */
+typedef struct { double wall, below; } FoldEnd;
+static FoldEnd end_in_fold(const Contact *c, double room, Vec3 at) {
+    Vec3 r = vec_sub(at, c->fold->joint);
     double half = 0.5 * room;
     return (FoldEnd){.wall = half - vec_dot(r, c->across),
                      .below = half * vec_dot(c->floor, c->across) -
-                              vec_dot(vec_mad(r, c->fold->inwards, -c->bottom), c->floor),
-                     .near = c->reach - m->other};
+                              vec_dot(vec_mad(r, c->fold->inwards, -c->bottom), c->floor)};
 }
 
 static inline double lesser(double a, double b) { return a < b ? a : b; }
 
+double yield_within(const Contact *c, double room, Vec3 at, double distance) {
+    if (!c->fold) return room - distance;
+    FoldEnd end = end_in_fold(c, room, at);
+    return (lesser(end.wall, end.below) > distance ? c->reach : room) - distance;
+}
+
 static double yield_in_fold(const Contact *c, double room, const Meeting *m) {
     if (!c->fold) return 0;
-    FoldEnd end = end_in_fold(c, room, m);
-    double least = lesser(lesser(end.wall, end.below), end.near);
+    FoldEnd end = end_in_fold(c, room, m->at);
+    double least = lesser(lesser(end.wall, end.below), c->reach - m->other);
     return least <= m->distance ? 0 : lesser(least - m->distance, c->most);
 }
 
 static Vec3 normal_in_fold(const Contact *c, double room, const Meeting *m) {
-    FoldEnd end = end_in_fold(c, room, m);
-    bool is_near = end.near <= end.wall && end.near <= end.below;
+    FoldEnd end = end_in_fold(c, room, m->at);
+    double near = c->reach - m->other;
+    bool is_near = near <= end.wall && near <= end.below;
     return vec_scale(is_near ? m->away : end.wall <= end.below ? c->across : c->floor, -1);
 }
 
