@@ -203,13 +203,12 @@ double hollow_depth(const Hollow *h, const Push *p, int vertex) {
     Vec3 x = p->point[vertex];
     double depth = 0, here = vec_dot(x, h->way);
     if (h->nblocks == 0 || !may_ask(h, &h->all, x, here, 0)) return 0;
-    double share = facing(inwards(p, p->sheet->place[vertex]), h->way);
-    if (share <= 0) return 0;
     for (const HollowBlock *b = h->block; b < h->block + h->nblocks && b->deepest - here > depth; b++) {
         if (!may_ask(h, b, x, here, depth)) continue;
         for (const HollowPoint *at = b->point; at < b->point + b->n; at++)
             if (at->deep - here > depth)
                 depth = depth_beside(h, asked(h, at->deep - here), aside2(h, at->at, x), depth);
     }
-    return depth * share * h->share;
+    if (depth <= 0) return 0; /* the normal is dear */
+    return depth * facing(inwards(p, p->sheet->place[vertex]), h->way) * h->share;
 }
