@@ -86,8 +86,8 @@ static double beyond_knee(Specimen *c, const Pose *pose) {
     follow_pose(&c->follower, pose, c->root);
     for (int k = 0; k < c->fit.npatches; k++) {
         const FitPanel *panel = &c->fit.panel[c->fit.patch[k].panel];
-        const FitCurve *row = &c->fit.curve[panel->curve[c->fit.patch[k].row]], *next = row;
-        next = &c->fit.curve[panel->curve[c->fit.patch[k].row + 1]];
+        const int *curve = &panel->curve[c->fit.patch[k].row];
+        const FitCurve *row = &c->fit.curve[curve[0]], *next = &c->fit.curve[curve[1]];
         CreaseSide side = crease_side_of_both(crease_side(&f, &c->fit.node[row->node[0]].binding),
                                               crease_side(&f, &c->fit.node[next->node[0]].binding));
         if (side != CREASE_ABOVE && side != CREASE_BELOW) continue;

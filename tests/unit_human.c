@@ -75,26 +75,19 @@ static void test_flat(void) {
     rig_close(&r);
 }
 
-static void test_hanging(void) {
+/* A file's two roles are joints of these names. */
+static void two_roles(const char *path, Role a, const char *name_a, Role b, const char *name_b, const char *says) {
     Rig r;
-    OK(rig_roles(&r, put_hanging(), NULL) && strcmp(rig_joint(&r, ROLE_HEAD), "Head") == 0 &&
-           strcmp(rig_joint(&r, ROLE_PELVIS), "Hips") == 0,
-       "a tree that hangs from the head");
-    rig_close(&r);
-}
-
-static void test_twins(void) {
-    Rig r;
-    OK(rig_roles(&r, put_twins(), NULL) && strcmp(rig_joint(&r, ROLE_LEFT_THIGH), "DEF-thigh.L") == 0 &&
-           strcmp(rig_joint(&r, ROLE_RIGHT_FOREARM), "DEF-forearm.R") == 0,
-       "of two limbs alike, the one that moves");
+    OK(rig_roles(&r, path, NULL) && strcmp(rig_joint(&r, a), name_a) == 0 && strcmp(rig_joint(&r, b), name_b) == 0,
+       "%s", says);
     rig_close(&r);
 }
 
 int main(void) {
     if (!folder_make()) return 1;
-    test_hanging();
-    test_twins();
+    two_roles(put_hanging(), ROLE_HEAD, "Head", ROLE_PELVIS, "Hips", "a tree that hangs from the head");
+    two_roles(put_twins(), ROLE_LEFT_THIGH, "DEF-thigh.L", ROLE_RIGHT_FOREARM, "DEF-forearm.R",
+              "of two limbs alike, the one that moves");
     test_flat();
     folder_remove();
     return tap_done();

@@ -24,8 +24,12 @@ typedef struct { Fold fold[FOLDS]; } Folds;
 /* Finds the folds of a pose. One whose joint the body lacks is open. */
 Folds folds_find(const Body *body, const Pose *pose);
 
-/* Is a part of that role above the fold, and does it meet what is below in it? That is the upper bone of a limb; of a
-   hip pelvis, spine and chest. */
+/* Does a bone hang on another at a joint that folds: a thigh on the pelvis, a shin on its thigh, a forearm on its upper
+   arm? */
+bool fold_joins(Role bone, Role on);
+
+/* Is a part of that role above the fold, and does it meet what is below in it? That is what the bone below hangs on; of
+   a hip also spine and chest. */
 bool fold_has_above(const Fold *fold, Role role);
 
 /* The fold in which parts of two roles meet; NULL if there is none, or it is open. */

@@ -11,15 +11,7 @@ static const double APART = 0.5;  /* and one that follows other limbs by more to
 static const double GAP = 0.25, ROOM = 0.5; /* of YIELD_ROOM: what cloth keeps from the plane, and from the other side's
                                                flesh where that ends before the plane */
 
-/* Is it a joint that is straight in the canonical stance and folds: a hip, a knee, an elbow? */
-static bool is_hinge(Role bone, Role on) {
-    bool on_pelvis = on == ROLE_PELVIS && (bone == ROLE_LEFT_THIGH || bone == ROLE_RIGHT_THIGH);
-    bool on_limb = bone == ROLE_LEFT_SHIN || bone == ROLE_RIGHT_SHIN || bone == ROLE_LEFT_FOREARM ||
-                   bone == ROLE_RIGHT_FOREARM;
-    return on_pelvis || (on_limb && on + 1 == bone);
-}
-
-/* How far a point in the fold of a hinge lies outside of where a blend leaves it. A blend keeps its distance from the
+/* How far a point in the fold of a joint lies outside of where a blend leaves it. A blend keeps its distance from the
    joint, but there the flesh of both sides meets as the sides of a mitre do: on the line that halves the angle between
    the bones, farther out by 1 / sin of that half. */
 static Vec3 mitre(const Figure *figure, const Pose *pose, Role bone, Role on, Vec3 point) {
@@ -38,7 +30,7 @@ Vec3 crease_mitre(const Figure *figure, const Pose *pose, const Binding *b, Vec3
     Vec3 out = at;
     for (int i = 0; i < b->n; i++)
         for (int k = 0; k < b->n; k++)
-            if (is_hinge(b->bone[i], b->bone[k]))
+            if (fold_joins(b->bone[i], b->bone[k]))
                 out = vec_mad(out, mitre(figure, pose, b->bone[i], b->bone[k], at), 4 * b->weight[i] * b->weight[k]);
     return out;
 }

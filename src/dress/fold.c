@@ -41,9 +41,15 @@ Folds folds_find(const Body *body, const Pose *pose) {
     return folds;
 }
 
+bool fold_joins(Role bone, Role on) {
+    bool folds = false;
+    for (int k = 0; k < FOLDS; k++) folds |= hinges[k].lower == bone;
+    return folds && on == (is_hip(bone) ? ROLE_PELVIS : bone - 1);
+}
+
 bool fold_has_above(const Fold *fold, Role role) {
-    if (is_hip(fold->lower)) return role == ROLE_PELVIS || role == ROLE_SPINE || role == ROLE_CHEST;
-    return role + 1 == fold->lower;
+    bool bends_over = is_hip(fold->lower) && (role == ROLE_SPINE || role == ROLE_CHEST);
+    return bends_over || fold_joins(fold->lower, role);
 }
 
 const Fold *folds_between(const Folds *folds, Role a, Role b) {

@@ -80,15 +80,19 @@ static void find_turns(Follower *f, const Pose *pose) {
     }
 }
 
-/* A thigh that turns about itself takes the cloth along little by little: not at all at the hip, wholly at the knee.
-   Returns how a point moves with a bone; rest: where it is in the canonical stance. */
-static Rigid bone_at(const Follower *f, const Pose *pose, Role bone, Vec3 rest) {
+/* How a point moves with a bone, and as *turn the rotation of that. A thigh that turns about itself takes the cloth
+   along little by little: not at all at the hip, wholly at the knee. rest: where the point is in the canonical
+   stance. */
+static Rigid bone_at(const Follower *f, const Pose *pose, Role bone, Vec3 rest, Quat *turn) {
+    *turn = f->turn[bone];
     if (bone != ROLE_LEFT_THIGH && bone != ROLE_RIGHT_THIGH) return pose->bone[bone];
     Vec3 hip = f->figure->start[bone], along = vec_sub(f->figure->end[bone], hip);
     double down = vec_dot(vec_sub(rest, hip), along) / vec_dot(along, along);
     double back = -f->twist[bone == ROLE_RIGHT_THIGH] * (1 - fmin(fmax(down, 0), 1));
-    Mat3 turn = mat_axis_angle(vec_unit_or(along, vec(0, -1, 0)), back);
-    return rigid_mul(pose->bone[bone], (Rigid){turn, vec_sub(hip, mat_apply(turn, hip))});
+    Mat3 about = mat_axis_angle(vec_unit_or(along, vec(0, -1, 0)), back);
+    Rigid g = rigid_mul(pose->bone[bone], (Rigid){about, vec_sub(hip, mat_apply(about, hip))});
+    *turn = quat_like(quat_from_mat(g.r), *turn);
+    return g;
 }
 
 /* The blend of weighted bones as one rigid motion, by dual quaternions (Kavan et al. 2007): between the two bones of a
@@ -98,8 +102,8 @@ static Rigid blend(const Follower *f, const Pose *pose, const Binding *b, Vec3 r
     Vec3 dual = {0, 0, 0}; /* vector and scalar part of the sum of t q, that is twice the dual part */
     double dual_w = 0;
     for (int i = 0; i < b->n; i++) {
-        Rigid g = bone_at(f, pose, b->bone[i], rest);
-        Quat q = quat_like(quat_from_mat(g.r), f->turn[b->bone[i]]);
+        Quat q;
+        Rigid g = bone_at(f, pose, b->bone[i], rest, &q);
         Vec3 v = {q.x, q.y, q.z}, t = g.t;
         double s = b->weight[i];
         mean = (Quat){mean.w + s * q.w, mean.x + s * q.x, mean.y + s * q.y, mean.z + s * q.z};
@@ -302,8 +306,11 @@ void follow_pose(Follower *f, const Pose *pose, Patch *out) {
     }
     share_slopes(f);
     for (int p = 0; p < fit->npatches; p++) {
-        if (fit->patch[p].panel < 0) follow_raw(f, &fit->patch[p], pose, &out[p]);
-        else loft(f, &fit->patch[p], &out[p]);
-        if (fit->patch[p].panel >= 0 && !by_envelope) keep_patch(f, pose, &fit->patch[p], &out[p]);
+        if (fit->patch[p].panel < 0) {
+            follow_raw(f, &fit->patch[p], pose, &out[p]);
+            continue;
+        }
+        loft(f, &fit->patch[p], &out[p]);
+        if (!by_envelope) keep_patch(f, pose, &fit->patch[p], &out[p]);
     }
 }
