@@ -134,6 +134,9 @@ static const Case heads[] = {
     {"brace not closed", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nMOTION\n", 0, "MOTION before the '}' of joint 'a'", 5,
      1, 0},
     {"no OFFSET", "HIERARCHY\nROOT a\n{\nCHANNELS 0\n}\n", 0, "joint 'a' has no OFFSET", 5, 1, 0},
+    {"a rotation behind the OFFSET",
+     "HIERARCHY\nROOT a\n{\nOFFSET 1 2 3 90 1e-3 -4\nCHANNELS 1 Xrotation\n"
+     "End Site\n{\nOFFSET 0 1 0 0 0 0 }\n}\n" ONE "5\n", 1, "OFFSETs of more than three numbers", 4, 14, 5},
     {"two OFFSETs", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nOFFSET 0 0 0\n}\n", 0, "a second OFFSET", 5, 7, 0},
     {"no channels at all", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n}\n" ONE, 0, "no joint of", 0, 0, 0},
     {"a million channels", "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1000000\n", 0, "a joint has 0 to 9", 5, 17, 0},

@@ -22,7 +22,7 @@ typedef struct {
     int open, depth;      /* the joint whose brace is open, -1 for none; braces open */
     Seen *seen;           /* per joint */
     bool await_brace;     /* a joint was named, and its '{' must follow */
-    bool scaled;          /* seen: a scale channel */
+    bool scaled, turned;  /* seen: a scale channel; an OFFSET of more than three numbers */
 } Head;
 
 static const char *joint_name(const Head *h, int i) { return h->joint[i].name; }
@@ -103,6 +103,21 @@ static bool read_end(Head *h, Error *e) {
     return name && add_joint(h, name, true, e);
 }
 
+/* Some exporters write the joint's rotation at rest behind its place. The channels tell the whole rotation all the
+   same, so it is left out. */
+static void skip_rotation(Head *h) {
+    Stream *s = &h->o->in;
+    double v;
+    while (stream_blanks(s)) {
+        Mark fourth = stream_mark(s);
+        if (stream_number(s, &v) > NUMBER_GLUED) return;
+        if (h->turned) continue;
+        h->turned = true;
+        stream_seek(s, fourth);
+        stream_note(s, h->o->notes, "OFFSETs of more than three numbers: the first three are read");
+    }
+}
+
 static bool read_offset(Head *h, Error *e) {
     Stream *s = &h->o->in;
     Joint *j = &h->joint[h->open];
@@ -117,6 +132,7 @@ static bool read_offset(Head *h, Error *e) {
         return stream_refuse(s, r, what, e);
     }
     j->offset = vec(v[0], v[1], v[2]);
+    skip_rotation(h);
     return true;
 }
 
