@@ -10,8 +10,6 @@ typedef struct {
     const Fit *fit;
     const Figure *figure;
     const Body *body;
-    Quat turn[ROLE_COUNT];               /* rotation of every bone in this pose, by its sign: which way round */
-    double twist[2];                     /* how far left and right thigh have turned about themselves, radians */
     Folds folds;                         /* of this pose */
     Vec3 (*curve)[4];                    /* control points of every curve in this pose */
     Vec3 (*slope)[GARMENT_ROWS_MAX][2][4]; /* per panel and row: derivatives across the rows at the curve's control

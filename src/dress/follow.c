@@ -8,6 +8,7 @@
 
 #include <string.h>
 
+#include "dress/blend.h"
 #include "dress/crease.h"
 #include "dress/envelope.h"
 
@@ -53,77 +54,13 @@ bool follow_reserve(Follower *f, const Fit *fit, const Figure *figure, const Bod
     return true;
 }
 
-/* How far a thigh has turned about itself against the pelvis; radians. */
-static double twist_of(const Follower *f, const Pose *pose, Role thigh) {
-    Vec3 axis = vec_unit_or(vec_sub(f->figure->end[thigh], f->figure->start[thigh]), vec(0, -1, 0));
-    Quat q = quat_from_mat(mat_mul(mat_transpose(pose->bone[ROLE_PELVIS].r), pose->bone[thigh].r));
-    double about = vec_dot(vec(q.x, q.y, q.z), axis);
-    return 2 * atan2(q.w < 0 ? -about : about, fabs(q.w));
-}
-
-/* Of the two quaternions of a bone's rotation, picks the one with which a blend between bones goes the right way
-   round. A bone has turned the shorter way from the bone that it hangs on; but a thigh the shorter way from sitting,
-   since hips bend forwards by 180 degrees and more, but hardly backwards. */
-static void find_turns(Follower *f, const Pose *pose) {
-    static const double SEAT = 60 * PI / 180;
-    for (int r = 0; r < ROLE_COUNT; r++) {
-        bool begins = r > 0 && role_limb((Role)r) != role_limb((Role)(r - 1));
-        bool is_thigh = r == ROLE_LEFT_THIGH || r == ROLE_RIGHT_THIGH;
-        int on = is_thigh ? ROLE_PELVIS : begins ? ROLE_CHEST : r > 0 ? r - 1 : r;
-        Quat like = r > 0 ? f->turn[on] : (Quat){1, 0, 0, 0};
-        if (is_thigh) {
-            Mat3 seat = mat_mul(pose->bone[on].r, mat_axis_angle(vec(-1, 0, 0), SEAT));
-            like = quat_like(quat_from_mat(seat), like);
-        }
-        f->turn[r] = quat_like(quat_from_mat(pose->bone[r].r), like);
-        if (is_thigh) f->twist[r == ROLE_RIGHT_THIGH] = twist_of(f, pose, (Role)r);
-    }
-}
-
-/* How a point moves with a bone, and as *turn the rotation of that. A thigh that turns about itself takes the cloth
-   along little by little: not at all at the hip, wholly at the knee. rest: where the point is in the canonical
-   stance. */
-static Rigid bone_at(const Follower *f, const Pose *pose, Role bone, Vec3 rest, Quat *turn) {
-    *turn = f->turn[bone];
-    if (bone != ROLE_LEFT_THIGH && bone != ROLE_RIGHT_THIGH) return pose->bone[bone];
-    Vec3 hip = f->figure->start[bone], along = vec_sub(f->figure->end[bone], hip);
-    double down = vec_dot(vec_sub(rest, hip), along) / vec_dot(along, along);
-    double back = -f->twist[bone == ROLE_RIGHT_THIGH] * (1 - fmin(fmax(down, 0), 1));
-    Mat3 about = mat_axis_angle(vec_unit_or(along, vec(0, -1, 0)), back);
-    Rigid g = rigid_mul(pose->bone[bone], (Rigid){about, vec_sub(hip, mat_apply(about, hip))});
-    *turn = quat_like(quat_from_mat(g.r), *turn);
-    return g;
-}
-
-/* The blend of weighted bones as one rigid motion, by dual quaternions (Kavan et al. 2007): between the two bones of a
-   joint it turns about the joint, so the ring at a knee keeps its width however far the knee bends. */
-static Rigid blend(const Follower *f, const Pose *pose, const Binding *b, Vec3 rest) {
-    Quat mean = {0, 0, 0, 0};
-    Vec3 dual = {0, 0, 0}; /* vector and scalar part of the sum of t q, that is twice the dual part */
-    double dual_w = 0;
-    for (int i = 0; i < b->n; i++) {
-        Quat q;
-        Rigid g = bone_at(f, pose, b->bone[i], rest, &q);
-        Vec3 v = {q.x, q.y, q.z}, t = g.t;
-        double s = b->weight[i];
-        mean = (Quat){mean.w + s * q.w, mean.x + s * q.x, mean.y + s * q.y, mean.z + s * q.z};
-        dual = vec_mad(dual, vec_add(vec_scale(t, q.w), vec_cross(t, v)), s);
-        dual_w -= s * vec_dot(t, v);
-    }
-    double n = sqrt(mean.w * mean.w + mean.x * mean.x + mean.y * mean.y + mean.z * mean.z);
-    if (n < 1e-6) return pose->bone[b->bone[0]]; /* bones turned against each other: no mean */
-    Vec3 v = {mean.x, mean.y, mean.z};
-    Vec3 t = vec_add(vec_mad(vec_scale(dual, mean.w), v, -dual_w), vec_cross(v, dual));
-    return (Rigid){mat_from_quat((Quat){mean.w / n, v.x / n, v.y / n, v.z / n}), vec_scale(t, 1 / (n * n))};
-}
-
 /* The inner control point at an end of a half arc that its middle station shapes (see FitCurve). node: where that
    end is. The handle keeps at least LEAST of its rest length, or a leg that is bent far would turn it over. */
-static Vec3 shaped_handle(const Follower *f, const FitCurve *curve, int end, const Pose *pose, Vec3 node) {
+static Vec3 shaped_handle(const Blender *b, const FitCurve *curve, int end, Vec3 node) {
     static const double LEAST = 0.3;
     Vec3 rest = curve->rest[1 + end], arm = vec_sub(rest, curve->rest[3 * end]);
-    Vec3 wanted = rigid_apply(blend(f, pose, &curve->middle, rest), rest);
-    Vec3 direction = vec_unit_or(mat_apply(blend(f, pose, &curve->turn[end], curve->rest[3 * end]).r, arm), arm);
+    Vec3 wanted = rigid_apply(blend_at(b, &curve->middle, rest), rest);
+    Vec3 direction = vec_unit_or(mat_apply(blend_at(b, &curve->turn[end], curve->rest[3 * end]).r, arm), arm);
     return vec_mad(node, direction, fmax(vec_dot(vec_sub(wanted, node), direction), LEAST * vec_len(arm)));
 }
 
@@ -140,17 +77,17 @@ static void keep_curve(Follower *f, const Pose *pose, int curve) {
 }
 
 static void curves_by_bones(Follower *f, const Pose *pose) {
-    find_turns(f, pose);
+    Blender b = blender_of(f->figure, pose);
     f->folds = folds_find(f->body, pose);
     for (int c = 0; c < f->fit->ncurves; c++) {
         const FitCurve *curve = &f->fit->curve[c];
         for (int end = 0; end < 2; end++) {
             const FitNode *node = &f->fit->node[curve->node[end]];
             Vec3 rest = curve->rest[3 * end], handle = vec_sub(curve->rest[1 + end], rest);
-            Rigid g = blend(f, pose, &node->binding, rest);
+            Rigid g = blend_at(&b, &node->binding, rest);
             Vec3 at = f->curve[c][3 * end] = crease_mitre(f->figure, pose, &node->binding, rigid_apply(g, rest));
             f->curve[c][1 + end] =
-                curve->middle.n ? shaped_handle(f, curve, end, pose, at) : vec_add(at, mat_apply(g.r, handle));
+                curve->middle.n ? shaped_handle(&b, curve, end, at) : vec_add(at, mat_apply(g.r, handle));
         }
         keep_curve(f, pose, c);
     }
