@@ -26,6 +26,7 @@ typedef struct {
     const int *index;     /* per item 2 (segments) or 3 (triangles) vertices */
     float reach;          /* largest magnitude of a coordinate */
     Tile *level[CROSSING_LEVELS]; /* boxes of items, of tiles of items, of tiles of those */
+    TileShapes *shapes;   /* of the tiles of items: ends of segments, planes of triangles */
 } CrossingSet;
 
 MUST_CHECK bool crossing_reserve(CrossingSet *set, int capacity, Arena *arena, Error *e);

@@ -1,4 +1,5 @@
-/* Sixteen bounding boxes in one structure of arrays, made and compared by SIMD instructions. */
+/* Sixteen segments or triangles with their bounding boxes in structures of arrays, made and compared by SIMD
+   instructions. */
 #ifndef GEOMETRY_TILE_H
 #define GEOMETRY_TILE_H
 
@@ -14,20 +15,42 @@ typedef struct { _Alignas(64) float low[3][TILE_LANES], high[3][TILE_LANES]; } T
 /* A set of lanes: bits 1 << lane. */
 typedef unsigned short TileLanes;
 
-/* Makes the boxes of n <= 16 items whose corners are position[index[0]], position[index[1]], ... Lanes beyond are
-   empty. The box round all of them becomes box `lane` of `above`. */
-typedef void TileBoxes(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane);
+/* Both ends of sixteen segments. */
+typedef struct { _Alignas(64) float p[3][TILE_LANES], q[3][TILE_LANES]; } TileEnds;
+
+/* The planes of sixteen triangles: n x = w, so long that |nx| + |ny| + |nz| <= 1; n is zero where a triangle has none.
+   The error of n is a few roundings however thin the triangle is. */
+typedef struct { _Alignas(64) float n[3][TILE_LANES], w[TILE_LANES]; } TilePlanes;
+
+typedef union { TileEnds ends; TilePlanes planes; } TileShapes;
+
+/* Makes the boxes and the shapes of n <= 16 items whose corners are position[index[0]], position[index[1]], ... Boxes
+   beyond are empty. The box round all of them becomes box `lane` of `above`. */
+typedef void TileItems(Tile *out, TileShapes *shapes, const Vec3 *position, const int *index, int n, Tile *above,
+                       int lane);
+
+/* Segments against triangles: of both the boxes and the shapes. */
+typedef struct { const Tile *segments, *triangles; const TileEnds *ends; const TilePlanes *planes; } TilePair;
 
 typedef struct {
-    TileBoxes *segments, *triangles; /* items of two and of three corners */
-    /* The lanes of tile a that overlap box k of tile b; touching is enough. */
-    TileLanes (*overlap)(const Tile *a, const Tile *b, int k);
-    /* The same for each k in `lanes`, into row[k]. Returns the lanes of b that overlap any. */
+    TileItems *segments, *triangles; /* items of two and of three corners */
+    /* For each k in `lanes` row[k] becomes the lanes of tile a that overlap box k of tile b; touching is enough.
+       Returns the lanes of b that overlap any. */
     TileLanes (*meet)(const Tile *a, const Tile *b, TileLanes lanes, TileLanes row[TILE_LANES]);
+    /* For each triangle k in `lanes` row[k] becomes the segments that may reach it: their boxes overlap, and they do
+       not have both ends on one side of its plane, farther from it than `slack`. Returns the triangles that any may
+       reach; adds the number of boxes that overlap to *pairs. */
+    TileLanes (*reach)(const TilePair *of, TileLanes lanes, float slack, TileLanes row[TILE_LANES], long long *pairs);
 } TileMachine;
 
 /* The functions for an instruction set. All give the same bits. */
 const TileMachine *tile_machine(Vectors vectors);
+
+/* The lanes of tile a that overlap box k of tile b. */
+TileLanes tile_overlap(const Tile *a, const Tile *b, int k);
+
+/* The segments that may reach plane k: not both ends on one side, farther from it than slack. */
+TileLanes tile_reaching(const TileEnds *ends, const TilePlanes *planes, int k, float slack);
 
 /* The box round all boxes of `below` becomes box `lane` of `above`. */
 void tile_sum(const Tile *below, Tile *above, int lane);

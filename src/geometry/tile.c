@@ -52,19 +52,61 @@ static void plain_boxes(Tile *out, const Vec3 *position, const int *index, int c
     tile_empty(out, n);
 }
 
-static void plain_segments(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane) {
+#define ALWAYS static inline __attribute__((always_inline))
+
+/* Lanes beyond the n-th repeat the last item; their boxes overlap nothing. */
+ALWAYS const int *item_of(const int *index, int corners, int n, int lane) {
+    return index + corners * (lane < n ? lane : n - 1);
+}
+
+static void plain_ends(TileEnds *out, const Vec3 *position, const int *index, int n) {
+    for (int k = 0; k < TILE_LANES; k++) {
+        const int *i = item_of(index, 2, n, k);
+        Vec3 p = position[i[0]], q = position[i[1]];
+        out->p[0][k] = (float)p.x, out->p[1][k] = (float)p.y, out->p[2][k] = (float)p.z;
+        out->q[0][k] = (float)q.x, out->q[1][k] = (float)q.y, out->q[2][k] = (float)q.z;
+    }
+}
+
+/* The normal is divided by the sum of the magnitudes of all products in it, of which it is at most the whole: then its
+   error is a few roundings however thin the triangle. The compiler makes SIMD code of the second loop. */
+ALWAYS void find_planes(TilePlanes *out, const Vec3 *position, const int *index, int n) {
+    double at[3][TILE_LANES], to_b[3][TILE_LANES], to_c[3][TILE_LANES];
+    for (int k = 0; k < TILE_LANES; k++) {
+        const int *i = item_of(index, 3, n, k);
+        Vec3 a = position[i[0]], b = position[i[1]], c = position[i[2]];
+        at[0][k] = a.x, at[1][k] = a.y, at[2][k] = a.z;
+        to_b[0][k] = b.x - a.x, to_b[1][k] = b.y - a.y, to_b[2][k] = b.z - a.z;
+        to_c[0][k] = c.x - a.x, to_c[1][k] = c.y - a.y, to_c[2][k] = c.z - a.z;
+    }
+    for (int k = 0; k < TILE_LANES; k++) {
+        double yz = to_b[1][k] * to_c[2][k], zy = to_b[2][k] * to_c[1][k], zx = to_b[2][k] * to_c[0][k];
+        double xz = to_b[0][k] * to_c[2][k], xy = to_b[0][k] * to_c[1][k], yx = to_b[1][k] * to_c[0][k];
+        double sum = fabs(yz) + fabs(zy) + fabs(zx) + fabs(xz) + fabs(xy) + fabs(yx), per_sum = 1 / (sum + 1e-300);
+        double nx = (yz - zy) * per_sum, ny = (zx - xz) * per_sum, nz = (xy - yx) * per_sum;
+        out->n[0][k] = (float)nx, out->n[1][k] = (float)ny, out->n[2][k] = (float)nz;
+        out->w[k] = (float)(nx * at[0][k] + ny * at[1][k] + nz * at[2][k]);
+    }
+}
+
+static void plain_segments(Tile *out, TileShapes *shapes, const Vec3 *position, const int *index, int n, Tile *above,
+                           int lane) {
     plain_boxes(out, position, index, 2, n);
     tile_sum(out, above, lane);
+    plain_ends(&shapes->ends, position, index, n);
 }
 
-static void plain_triangles(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane) {
+static void plain_triangles(Tile *out, TileShapes *shapes, const Vec3 *position, const int *index, int n, Tile *above,
+                            int lane) {
     plain_boxes(out, position, index, 3, n);
     tile_sum(out, above, lane);
+    find_planes(&shapes->planes, position, index, n);
 }
 
-static TileLanes plain_overlap(const Tile *a, const Tile *b, int k) {
-    static const int bit[TILE_LANES] = {1,   2,   4,    8,    16,   32,   64,    128,
-                                        256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
+static const int bit[TILE_LANES] = {1,   2,   4,    8,    16,   32,   64,    128,
+                                    256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
+
+TileLanes tile_overlap(const Tile *a, const Tile *b, int k) {
     float lx = b->low[0][k], ly = b->low[1][k], lz = b->low[2][k];
     float hx = b->high[0][k], hy = b->high[1][k], hz = b->high[2][k];
     int found = 0;
@@ -76,21 +118,50 @@ static TileLanes plain_overlap(const Tile *a, const Tile *b, int k) {
     return (TileLanes)found;
 }
 
+TileLanes tile_reaching(const TileEnds *ends, const TilePlanes *planes, int k, float slack) {
+    const float(*p)[TILE_LANES] = ends->p, (*q)[TILE_LANES] = ends->q;
+    float nx = planes->n[0][k], ny = planes->n[1][k], nz = planes->n[2][k], w = planes->w[k];
+    int found = 0;
+    for (int i = 0; i < TILE_LANES; i++) {
+        float a = nx * p[0][i] + ny * p[1][i] + nz * p[2][i] - w;
+        float b = nx * q[0][i] + ny * q[1][i] + nz * q[2][i] - w;
+        bool above = lesserf(a, b) > slack, below = largerf(a, b) < -slack;
+        found += (above | below) ? 0 : bit[i];
+    }
+    return (TileLanes)found;
+}
+
 /* The body of `meet`, the same for each instruction set but for its own `overlap`. */
-#define MEET(overlap)                                                                           \
-    unsigned any = 0;                                                                           \
-    for (unsigned left = lanes; left; left &= left - 1) {                                       \
-        int k = __builtin_ctz(left);                                                            \
-        row[k] = overlap(a, b, k);                                                              \
-        any |= row[k] ? 1u << k : 0;                                                            \
-    }                                                                                           \
+#define MEET(overlap)                                                                             \
+    unsigned any = 0;                                                                             \
+    for (unsigned left = lanes; left; left &= left - 1) {                                         \
+        int k = __builtin_ctz(left);                                                              \
+        row[k] = overlap(a, b, k);                                                                \
+        any |= row[k] ? 1u << k : 0;                                                              \
+    }                                                                                             \
+    return (TileLanes)any
+
+/* That of `reach`, likewise. Boxes come first, so that which planes are asked for is known when the first one is. */
+#define REACH(meet, reaching)                                                                     \
+    unsigned any = 0;                                                                             \
+    for (unsigned left = meet(of->segments, of->triangles, lanes, row); left; left &= left - 1) { \
+        int k = __builtin_ctz(left);                                                              \
+        *pairs += __builtin_popcount(row[k]);                                                     \
+        row[k] &= reaching(of->ends, of->planes, k, slack);                                       \
+        any |= row[k] ? 1u << k : 0;                                                              \
+    }                                                                                             \
     return (TileLanes)any
 
 static TileLanes plain_meet(const Tile *a, const Tile *b, TileLanes lanes, TileLanes row[TILE_LANES]) {
-    MEET(plain_overlap);
+    MEET(tile_overlap);
 }
 
-static const TileMachine plain = {plain_segments, plain_triangles, plain_overlap, plain_meet};
+static TileLanes plain_reach(const TilePair *of, TileLanes lanes, float slack, TileLanes row[TILE_LANES],
+                             long long *pairs) {
+    REACH(plain_meet, tile_reaching);
+}
+
+static const TileMachine plain = {plain_segments, plain_triangles, plain_meet, plain_reach};
 
 /* --- vectors of x86-64 --- */
 
@@ -119,24 +190,27 @@ FOR_AVX2 static inline __m128 largest_of(const __m128 v[4]) {
     return _mm_max_ps(_mm_max_ps(v[0], v[1]), _mm_max_ps(v[2], v[3]));
 }
 
-/* A whole tile; `corners` is known where this is inlined. */
-FOR_AVX2 static inline void avx2_boxes(Tile *out, const Vec3 *position, const int *index, int corners, Tile *above,
-                                   int lane) {
+/* The boxes of a whole tile, and the ends if they are segments; `corners` is known where this is inlined. */
+FOR_AVX2 static inline void avx2_boxes(Tile *out, TileEnds *ends, const Vec3 *position, const int *index, int corners,
+                                       Tile *above, int lane) {
     __m128 part_low[4], part_high[4];
     for (int part = 0; part < 4; part++) {
-        __m128 low[4], high[4];
+        __m128 first[4], last[4], low[4], high[4];
         for (int k = 0; k < 4; k++, index += corners) {
-            low[k] = high[k] = corner(&position[index[0]]);
+            low[k] = high[k] = first[k] = corner(&position[index[0]]);
             for (int c = 1; c < corners; c++) {
-                __m128 v = corner(&position[index[c]]);
-                low[k] = _mm_min_ps(low[k], v);
-                high[k] = _mm_max_ps(high[k], v);
+                last[k] = corner(&position[index[c]]);
+                low[k] = _mm_min_ps(low[k], last[k]);
+                high[k] = _mm_max_ps(high[k], last[k]);
             }
         }
         part_low[part] = least_of(low);
         part_high[part] = largest_of(high);
         store_lanes(out->low, 4 * part, low);
         store_lanes(out->high, 4 * part, high);
+        if (corners > 2) continue;
+        store_lanes(ends->p, 4 * part, first);
+        store_lanes(ends->q, 4 * part, last);
     }
     float low[4], high[4];
     _mm_storeu_ps(low, least_of(part_low));
@@ -144,14 +218,26 @@ FOR_AVX2 static inline void avx2_boxes(Tile *out, const Vec3 *position, const in
     for (int x = 0; x < 3; x++) above->low[x][lane] = low[x], above->high[x][lane] = high[x];
 }
 
-FOR_AVX2 static void avx2_segments(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane) {
-    if (n < TILE_LANES) plain_segments(out, position, index, n, above, lane);
-    else avx2_boxes(out, position, index, 2, above, lane);
+FOR_AVX2 static void avx2_segments(Tile *out, TileShapes *shapes, const Vec3 *position, const int *index, int n,
+                                   Tile *above, int lane) {
+    if (n < TILE_LANES) plain_segments(out, shapes, position, index, n, above, lane);
+    else avx2_boxes(out, &shapes->ends, position, index, 2, above, lane);
 }
 
-FOR_AVX2 static void avx2_triangles(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane) {
-    if (n < TILE_LANES) plain_triangles(out, position, index, n, above, lane);
-    else avx2_boxes(out, position, index, 3, above, lane);
+FOR_AVX2 static inline void avx2_triangle_boxes(Tile *out, const Vec3 *position, const int *index, int n, Tile *above,
+                                                int lane) {
+    if (n == TILE_LANES) {
+        avx2_boxes(out, NULL, position, index, 3, above, lane);
+        return;
+    }
+    plain_boxes(out, position, index, 3, n);
+    tile_sum(out, above, lane);
+}
+
+FOR_AVX2 static void avx2_triangles(Tile *out, TileShapes *shapes, const Vec3 *position, const int *index, int n,
+                                    Tile *above, int lane) {
+    avx2_triangle_boxes(out, position, index, n, above, lane);
+    find_planes(&shapes->planes, position, index, n);
 }
 
 /* Eight boxes of tile a, from `first` on. */
@@ -169,8 +255,38 @@ FOR_AVX2 static inline TileLanes avx2_overlap(const Tile *a, const Tile *b, int 
     return (TileLanes)(half_overlap(a, 0, b, k) | half_overlap(a, 8, b, k) << 8);
 }
 
+FOR_AVX2 static inline __m256 above_plane(const float p[3][TILE_LANES], int first, const TilePlanes *planes, int k) {
+    __m256 x = _mm256_mul_ps(_mm256_broadcast_ss(&planes->n[0][k]), _mm256_load_ps(p[0] + first));
+    __m256 y = _mm256_mul_ps(_mm256_broadcast_ss(&planes->n[1][k]), _mm256_load_ps(p[1] + first));
+    __m256 z = _mm256_mul_ps(_mm256_broadcast_ss(&planes->n[2][k]), _mm256_load_ps(p[2] + first));
+    return _mm256_sub_ps(_mm256_add_ps(_mm256_add_ps(x, y), z), _mm256_broadcast_ss(&planes->w[k]));
+}
+
+FOR_AVX2 static inline unsigned half_beside(const TileEnds *ends, int first, const TilePlanes *planes, int k,
+                                            float slack) {
+    __m256 a = above_plane(ends->p, first, planes, k), b = above_plane(ends->q, first, planes, k);
+    __m256 above = _mm256_cmp_ps(_mm256_min_ps(a, b), _mm256_set1_ps(slack), _CMP_GT_OQ);
+    __m256 below = _mm256_cmp_ps(_mm256_max_ps(a, b), _mm256_set1_ps(-slack), _CMP_LT_OQ);
+    return (unsigned)_mm256_movemask_ps(_mm256_or_ps(above, below));
+}
+
+FOR_AVX2 static inline TileLanes avx2_reaching(const TileEnds *ends, const TilePlanes *planes, int k, float slack) {
+    return (TileLanes)~(half_beside(ends, 0, planes, k, slack) | half_beside(ends, 8, planes, k, slack) << 8);
+}
+
 FOR_AVX2 static TileLanes avx2_meet(const Tile *a, const Tile *b, TileLanes lanes, TileLanes row[TILE_LANES]) {
     MEET(avx2_overlap);
+}
+
+FOR_AVX2 static TileLanes avx2_reach(const TilePair *of, TileLanes lanes, float slack, TileLanes row[TILE_LANES],
+                                     long long *pairs) {
+    REACH(avx2_meet, avx2_reaching);
+}
+
+FOR_AVX512 static void avx512_triangles(Tile *out, TileShapes *shapes, const Vec3 *position, const int *index, int n,
+                                        Tile *above, int lane) {
+    avx2_triangle_boxes(out, position, index, n, above, lane);
+    find_planes(&shapes->planes, position, index, n);
 }
 
 FOR_AVX512 static inline TileLanes avx512_overlap(const Tile *a, const Tile *b, int k) {
@@ -183,12 +299,32 @@ FOR_AVX512 static inline TileLanes avx512_overlap(const Tile *a, const Tile *b, 
     return all;
 }
 
+FOR_AVX512 static inline __m512 sixteen_above(const float p[3][TILE_LANES], const TilePlanes *planes, int k) {
+    __m512 x = _mm512_mul_ps(_mm512_set1_ps(planes->n[0][k]), _mm512_load_ps(p[0]));
+    __m512 y = _mm512_mul_ps(_mm512_set1_ps(planes->n[1][k]), _mm512_load_ps(p[1]));
+    __m512 z = _mm512_mul_ps(_mm512_set1_ps(planes->n[2][k]), _mm512_load_ps(p[2]));
+    return _mm512_sub_ps(_mm512_add_ps(_mm512_add_ps(x, y), z), _mm512_set1_ps(planes->w[k]));
+}
+
+FOR_AVX512 static inline TileLanes avx512_reaching(const TileEnds *ends, const TilePlanes *planes, int k,
+                                                   float slack) {
+    __m512 a = sixteen_above(ends->p, planes, k), b = sixteen_above(ends->q, planes, k);
+    __mmask16 above = _mm512_cmp_ps_mask(_mm512_min_ps(a, b), _mm512_set1_ps(slack), _CMP_GT_OQ);
+    __mmask16 below = _mm512_cmp_ps_mask(_mm512_max_ps(a, b), _mm512_set1_ps(-slack), _CMP_LT_OQ);
+    return (TileLanes)~(above | below);
+}
+
 FOR_AVX512 static TileLanes avx512_meet(const Tile *a, const Tile *b, TileLanes lanes, TileLanes row[TILE_LANES]) {
     MEET(avx512_overlap);
 }
 
-static const TileMachine avx2 = {avx2_segments, avx2_triangles, avx2_overlap, avx2_meet};
-static const TileMachine avx512 = {avx2_segments, avx2_triangles, avx512_overlap, avx512_meet};
+FOR_AVX512 static TileLanes avx512_reach(const TilePair *of, TileLanes lanes, float slack, TileLanes row[TILE_LANES],
+                                         long long *pairs) {
+    REACH(avx512_meet, avx512_reaching);
+}
+
+static const TileMachine avx2 = {avx2_segments, avx2_triangles, avx2_meet, avx2_reach};
+static const TileMachine avx512 = {avx2_segments, avx512_triangles, avx512_meet, avx512_reach};
 
 const TileMachine *tile_machine(Vectors vectors) {
     vectors = vectors_pick(vectors);
