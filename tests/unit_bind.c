@@ -28,6 +28,10 @@ static void test_lying(void) {
         OK(angle(mat_column(pose.bone[ROLE_PELVIS].r, 2), vec(0, cases[i].face, 0)) < 35, "and so does the pelvis");
         rig_close(&r);
     }
+    Rig back; /* head along y, the floor below z */
+    bool opens = rig_open(&back, "tests/data/figure/supine.bvh", NULL);
+    OK(opens && (back.figure.up == 'z' || back.notes.count == 1), "who lies on the back is understood, or doubted");
+    rig_close(&back);
 }
 
 /* The up axis of lafan1.bvh, whose rest pose tells nothing, turned about z (degrees) and all in one place. */

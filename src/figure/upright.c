@@ -17,7 +17,7 @@ static const double HABIT_Y = 0.3, HABIT_Z = 0.15, DOWN = 0.6, DOWN_Y = 0.25, AL
    those of a figure that is held at the origin and stands on no floor. */
 static const double UNDER_ZERO = 0.15, OVER_ZERO = 0.35, FLAT_HIPS = 0.12;
 /* A lead over the second axis below which a note tells. */
-static const double NARROW = 0.25;
+static const double NARROW = 0.4;
 
 static Vec3 axis_of(char up) {
     double sign = up >= 'x' ? 1 : -1;
