@@ -47,6 +47,12 @@ ok 'without --follow the figure walks through the view' draw -o walks.svg --size
 ok 'with it the camera walks along' draw -o stays.svg --size 60 --frames 1,72 --follow --view left
 wide() { sed -n 's/.*<svg[^>]* width="\([0-9.]*\)".*/\1/p' "$1"; }
 ok 'and the pictures are narrower' awk "BEGIN { exit !($(wide stays.svg) < $(wide walks.svg)) }"
+trousers=$root/garments/trousers.garment
+cells_drawn() { sed -n 's/^<text[^>]*>.* \([0-9]*\) cells<\/text>$/\1/p' "$1" | tr '\n' ' '; }
+"$KITSUKE" draw -q "$walk" -g "$trousers" -o time.svg --size 50 --frames 1:40:3 --cell push,cells
+"$KITSUKE" dress -q "$walk" -g "$trousers" -o time --frames 1:40:3 --format none
+is 'cells open and close in time as when the frames are dressed' "$(cells_drawn time.svg)" \
+    "$(joined cells time/paper-walk/stats.csv)"
 ok 'the method to the letter has pictures too' draw -o paper.svg --size 60 --frames 8,9 --method paper --show patches
 well_formed() { # tags that open close
     for f in figure6.svg list.svg both.svg paper.svg; do

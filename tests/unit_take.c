@@ -230,6 +230,38 @@ static void test_astray(void) {
     free(f);
 }
 
+/* The same, and from frame 16 on everything another 3 m aside. */
+static void lead_astray_behind_a_jump(int frame, double *value, int n) {
+    lead_astray(frame, value, n);
+    if (frame > 15) value[0] += 300;
+}
+
+static void test_astray_behind_a_jump(void) {
+    const char *path = write_walk("both.bvh", 2, lead_astray_behind_a_jump);
+    const int chosen[] = {1, 15, 22, 29, 30};
+    int n;
+    TakeFrame *f = all_frames(path, (FrameSpan){1, 0, 7}, 0, &n), frame;
+    OK(f[3].tie == TIE_ASTRAY && f[4].tie == TIE_AFRESH, "what is astray does not forget the jump in front of it");
+    free(f);
+    f = all_frames(path, (FrameSpan){0}, 0, &n);
+    Scene s;
+    Error e = {0};
+    bool good = true;
+    open_take(&s, path, (FrameSpan){1, 30, 1}, 0);
+    for (int i = 0; i < 5; i++) {
+        const TakeFrame *same = &f[chosen[i] - 1];
+        Tie tie = i == 0 || i == 3 ? TIE_AFRESH : i == 2 ? TIE_ASTRAY : TIE_GOES_ON;
+        int before = i == 3 ? 1 : i - 1; /* what is astray does not count */
+        take_leap(s.take, chosen[i]);
+        good = good && take_next(s.take, &frame, &e) && frame.number == same->number && frame.time == same->time &&
+               frame.tie == tie && memcmp(&frame.pose, &same->pose, sizeof frame.pose) == 0 &&
+               fabs(frame.dt - (i ? (chosen[i] - chosen[before]) * f[1].time : 0)) < 1e-12;
+    }
+    OK(good && !take_next(s.take, &frame, &e), "nor is it where frames are leapt over one by one");
+    free(f);
+    close_scene(&s);
+}
+
 static size_t memory_of(const char *path) {
     Scene s;
     Error e = {0};
@@ -257,6 +289,7 @@ int main(void) {
     test_wrapped_angles(path);
     test_jumps();
     test_astray();
+    test_astray_behind_a_jump();
     test_memory();
     folder_remove();
     return tap_done();

@@ -39,6 +39,9 @@ MUST_CHECK bool take_relax(Take *t, const Body *body, const Padding *padding, Ar
 /* How many frames there will be. */
 int take_count(const Take *t);
 
+/* Leaves out all frames before that one, which was not given out yet. */
+void take_leap(Take *t, int number);
+
 /* The next frame. False at the end (no error) or with an error; check e->kind. */
 bool take_next(Take *t, TakeFrame *out, Error *e);
 

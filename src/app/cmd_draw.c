@@ -155,18 +155,11 @@ static bool keep_frame(Page *p, int number, const TakeFrame *frame, Error *e) {
 /* Frames that are not drawn are not dressed either, as with `dress --frames`. */
 static bool keep_frames(Page *p, Error *e) {
     TakeFrame frame;
-    double last_time = 0;
-    bool afresh = false;
-    for (int number = 0; number < p->nframes && take_next(p->take, &frame, e);) {
-        afresh = afresh || frame.tie == TIE_AFRESH;
-        if (frame.number != p->frame[number]) continue;
-        frame.dt = number ? frame.time - last_time : 0;
-        if (afresh && frame.tie == TIE_GOES_ON) frame.tie = TIE_AFRESH;
-        last_time = frame.time;
-        afresh = false;
-        if (!keep_frame(p, number++, &frame, e)) return false;
+    for (int number = 0; number < p->nframes; number++) {
+        take_leap(p->take, p->frame[number]);
+        if (!take_next(p->take, &frame, e) || !keep_frame(p, number, &frame, e)) return false;
     }
-    return e->kind == ERR_NONE;
+    return true;
 }
 
 /* One view for all pictures: what they reach, or round the garments as much as the zoom leaves. */

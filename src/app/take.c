@@ -156,6 +156,8 @@ bool take_relax(Take *t, const Body *body, const Padding *padding, Arena *arena,
 
 int take_count(const Take *t) { return t->number > t->last ? 0 : (t->last - t->number) / t->step + 1; }
 
+void take_leap(Take *t, int number) { t->number = number; }
+
 /* Moves the window until `frame` is the one ahead; it may already be further. */
 static bool reach(Take *t, int frame, int begin, Error *e) {
     if (!t->begun) {
