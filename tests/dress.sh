@@ -31,6 +31,18 @@ is 'and they are the same' "$(cat none/paper-walk/stats.csv)" "$(cat bare/paper-
 like 'with times there are columns of seconds' "$(grep '^frame,' times/paper-walk/stats.csv)" \
     ',pose_s,.*,write_s,arm_turn$'
 is 'without there are none' "$(grep -c '_s,' none/paper-walk/stats.csv)" 0
+six=
+for n in 1 2 3 4 5 6; do
+    sed "s/^garment .*/garment skirt$n/" "$skirt" >skirt$n.garment
+    six="$six -g skirt$n.garment"
+done
+"$KITSUKE" dress -q "$walk" $six -o six -j 1 --frames 1:12 --format none --detail 2 --body-detail 64 \
+    --progress json 2>err
+spent() { awk -F, '/^#/ { next } !n { for (n = 1; n <= NF; n++) is_time[n] = $n ~ /_s$/; next }
+    { for (i = 1; i <= NF; i++) if (is_time[i]) s += $i } END { print s }' six/paper-walk/stats.csv; }
+took=$(sed -n 's/.*"seconds":\([0-9.]*\),.*"finished":true.*/\1/p' err)
+ok 'the columns of six garments on one thread do not add up to more than the run took' \
+    awk "BEGIN { exit !($(spent) > 0 && $(spent) < $took + 0.1) }"
 
 # Frames and rates. The walk has 72 frames at 66 a second.
 dress "$walk" -g "$skirt" -o full --format obj
@@ -111,6 +123,15 @@ cp "$walk" in/a/walk.amc
 dress in/a/walk.bvh in/b/walk.BVH in/a/walk.amc -g "$skirt" -o names --frames 1:1 --no-body --format none
 is 'names that collide grow' "$(cd names && find . -name stats.csv | sort | tr '\n' ' ')" \
     './in/a/walk/stats.csv ./in/b/walk/stats.csv ./walk.amc/stats.csv '
+mkdir case
+cp "$walk" case/Walk.bvh
+if [ -e case/walk.bvh ]; then skip 'names that differ by case only' 'this disk does not tell them apart'
+else
+    cp "$walk" case/walk.bvh
+    dress case -g "$skirt" -o cased --frames 1:1 --format none
+    is 'names that differ by case only are two on every disk' \
+        "$(cd cased && find . -name stats.csv | tr A-Z a-z | sort | uniq -d)$(count cased stats.csv)" 2
+fi
 dress in/walk.bvh ./in//walk.bvh in/./walk.bvh -g "$skirt" -o once --frames 1:1 --format none
 is 'a file that was named three times is dressed once' "$(column motion once/summary.csv)" walk
 

@@ -85,15 +85,18 @@ static void dress_garment(const Fitting *f, int g, Pen *pen) {
                              .nrows = 1}, &mesh);
 }
 
-/* All rows share the time for the body. */
+/* All garments of a frame share the time for the body. */
+static void share_pose(StatsRow *row, int n, double seconds) {
+    for (int g = 0; g < n; g++) row[g].pose_s += seconds / n;
+}
+
 static void put_body(const Fitting *f, Pen *pen) {
     Run *r = f->run;
     int n = r->work->wardrobe->ngarments;
     if (r->settings->no_body || r->settings->formats == FORMAT_NONE) return;
     double since = clock_seconds();
     Mesh body = wearer_skin(&f->now->wearer);
-    double seconds = clock_lap(&since);
-    for (int g = 0; g < n; g++) f->row[g].pose_s += seconds / n;
+    share_pose(f->row, n, clock_lap(&since));
     put(r, pen, (PressOrder){.name = "body", .frame = f->now->frame.number, .bytes = &r->result->body_bytes,
                              .row = f->row, .nrows = n}, &body);
 }
@@ -120,7 +123,8 @@ static bool dress_frame(Run *r, const Stance *now, Stance *next, Error *e) {
     for (int g = 0; g < n; g++)
         row[g] = (StatsRow){.frame = now->frame.number, .time = now->frame.time, .arm_turn = now->frame.arm_turn,
                             .split = (SplitRule)r->settings->split, .method = (Method)r->settings->method,
-                            .garment = r->work->wardrobe->garment[g]->name, .pose_s = now->seconds / n};
+                            .garment = r->work->wardrobe->garment[g]->name};
+    share_pose(row, n, now->seconds);
     if (!dress_and_pose(r, now, next, row, e)) return false;
     for (int g = 0; g < n; g++) residual = residual || stats_has_residual(&row[g].stats);
     r->result->nrows += n;
