@@ -268,9 +268,44 @@ static void test_only_kneel(void) {
     close_both(&told, &found);
 }
 
+/* A copy of a motion in which every end site is at the same offset from its joint. */
+static const char *with_ends(const char *from, const char *offset) {
+    const char *path = in_folder("ends.bvh");
+    FILE *in = fopen(from, "r"), *out = fopen(path, "w");
+    char line[4096];
+    bool in_end = false;
+    while (fgets(line, sizeof line, in)) {
+        bool is_offset = strstr(line, "OFFSET") != NULL;
+        in_end |= strstr(line, "End Site") != NULL;
+        if (is_offset && in_end) fprintf(out, "OFFSET %s\n", offset);
+        else fputs(line, out);
+        in_end = in_end && !is_offset;
+    }
+    fclose(in);
+    fclose(out);
+    return path;
+}
+
+/* Writers that know no ends of bones write any. Feet with toes, in metres, and without, in centimetres. */
+static void test_ends(void) {
+    static const struct { const char *file, *offset; } cases[] = {
+        {"tests/data/figure/smpl.bvh", "0 0.15 0"}, {"tests/data/figure/neuron.bvh", "0 15 0"},
+        {"tests/data/figure/neuron.bvh", "0 0 -0.001"}, {"tests/data/figure/lafan1.bvh", "0 15 0"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        Rig told, any;
+        if (!open_both(&told, cases[i].file, &any, with_ends(cases[i].file, cases[i].offset), cases[i].file)) continue;
+        double feet = foot_difference(&told, &any);
+        OK(strcmp(told.figure.rest, any.figure.rest) == 0, "with ends at %s the rest pose is as good", cases[i].offset);
+        OK(feet < 5, "and feet point the same way, within %.1f degrees", feet);
+        close_both(&told, &any);
+    }
+}
+
 int main(void) {
     if (!folder_make()) return 1;
     test_lying();
+    test_ends();
     test_turned();
     test_foot_ends();
     test_points();

@@ -187,6 +187,27 @@ static void find_fingertip(const Skeleton *skeleton, const Sample *s, Figure *f,
     }
 }
 
+/* Can a foot end at `tip`? Writers that know no end of a bone write one all the same: nearly in the joint, or straight
+   up, where no foot points. */
+static bool can_end(const Sample *s, int knee, int ankle, int tip) {
+    static const double SOME_WAY = 0.05, UP_SHIN = 0.5; /* of the shin; mean cosine between foot and shin */
+    double up = 0;
+    if (tip < 0 || sample_distance(s, ankle, tip) < SOME_WAY * sample_distance(s, knee, ankle)) return false;
+    for (int i = 0; i < s->count; i++) {
+        Vec3 at = sample_point(s, i, ankle), foot = vec_sub(sample_point(s, i, tip), at);
+        Vec3 shin = vec_sub(sample_point(s, i, knee), at);
+        up += vec_dot(vec_unit_or(shin, vec(0, 0, 0)), vec_unit_or(foot, vec(0, 0, 0))) / s->count;
+    }
+    return up < UP_SHIN;
+}
+
+/* A foot whose tip cannot be its end points to the toes. */
+static void check_foot(const Sample *s, Figure *f, Role foot) {
+    int knee = f->roles.joint[foot - 1], ankle = f->roles.joint[foot], toe = f->roles.joint[foot + 1];
+    if (ankle < 0 || can_end(s, knee, ankle, f->toward[foot])) return;
+    f->toward[foot] = can_end(s, knee, ankle, toe) ? toe : -1;
+}
+
 /* The joint or end site that each bone points to. */
 static void find_ends(const Skeleton *skeleton, const Sample *s, Figure *f) {
     static const Role next[ROLE_COUNT] = {
@@ -207,6 +228,8 @@ static void find_ends(const Skeleton *skeleton, const Sample *s, Figure *f) {
         /* A hand's or a foot's tip: at most as far as the bone before it is long, and a half. */
         f->toward[role] = sample_tip(s, skeleton, joint[role], 1.5 * sample_distance(s, joint[role - 1], joint[role]));
     }
+    check_foot(s, f, ROLE_LEFT_FOOT);
+    check_foot(s, f, ROLE_RIGHT_FOOT);
     find_fingertip(skeleton, s, f, ROLE_LEFT_HAND);
     find_fingertip(skeleton, s, f, ROLE_RIGHT_HAND);
 }
