@@ -339,6 +339,30 @@ static void test_oddities(void) {
     rig_close(&r);
 }
 
+/* A heel between ankle and toes, as pose estimators see it, is no toe. */
+static void test_heel(void) {
+    const char *path = in_folder("heel.bvh");
+    FILE *in = fopen("tests/data/figure/mixamo.bvh", "r"), *out = fopen(path, "w");
+    char line[4096];
+    int depth = 0, heel = -1; /* braces open; as many where the heel is */
+    while (fgets(line, sizeof line, in)) {
+        bool is_toe = strstr(line, "ToeBase") != NULL;
+        if (is_toe) {
+            const char *side = strstr(line, "Left") ? "Left" : "Right";
+            fprintf(out, "JOINT %sHeel\n{\nOFFSET 0 -5 -5\nCHANNELS 0\nJOINT %sFootIndex\n", side, side);
+            heel = depth;
+        } else fputs(line, out);
+        depth += (strchr(line, '{') != NULL) - (strchr(line, '}') != NULL);
+        if (heel == depth && !is_toe) fputs("}\n", out), heel = -1;
+    }
+    fclose(in);
+    fclose(out);
+    Rig r;
+    OK(rig_roles(&r, path, NULL) && strcmp(rig_joint(&r, ROLE_LEFT_TOE), "LeftFootIndex") == 0 &&
+           strcmp(rig_joint(&r, ROLE_RIGHT_TOE), "RightFootIndex") == 0, "a heel is no toe");
+    rig_close(&r);
+}
+
 /* A role file against the biped. */
 static void test_file(const char *text, const char *wanted, int line, int column) {
     Rig r;
@@ -420,6 +444,7 @@ int main(void) {
     test_refused();
     test_not_human();
     test_oddities();
+    test_heel();
     test_two_roots();
     test_called();
     test_headless();

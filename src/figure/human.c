@@ -174,8 +174,16 @@ static int same_side(const Tree *t, const Limbs *limbs) {
 
 static int real_joint(const Tree *t, int joint) { return joint >= 0 && !t->skeleton->joint[joint].is_end ? joint : -1; }
 
+/* Is joint the first below the foot that is no stranger, as a heel is? */
+static bool is_first(const Tree *t, int joint, int foot) {
+    if (t->hint[joint].stranger) return false;
+    do joint = t->skeleton->joint[joint].parent;
+    while (joint != foot && t->hint[joint].stranger);
+    return joint == foot;
+}
+
 /* The joint below the foot with which the toes begin: the one that is named best, the nearest to the foot of several
-   named alike; without names the child of the foot with the longest chain. */
+   named alike; without names of those that are first below the foot the one with the longest chain. */
 static int find_toe(const Tree *t, int foot) {
     static const double NAMED = 0.2, NEARER = 0.01; /* least weight of a name; what being nearer may add to it */
     if (foot < 0) return -1;
@@ -186,7 +194,7 @@ static int find_toe(const Tree *t, int foot) {
         double weight = t->hint[j].weight[PART_TOE] + NEARER * t->reach[j] / (t->reach[foot] + 1e-300);
         if (weight > most + 1e-6) most = weight, best = j;
         double length = t->bone[j] + t->reach[j];
-        if (t->skeleton->joint[j].parent == foot && length > longest) longest = length, first = j;
+        if (length > longest && is_first(t, j, foot)) longest = length, first = j;
     }
     return best >= 0 ? tree_past_nodes(t, best, PART_TOE) : first;
 }
