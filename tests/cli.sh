@@ -87,6 +87,7 @@ ok 'the beginning of an option is suggested, not taken' \
 ok 'an unknown letter' refuses 2 "unknown option '-z' in '-qz'" dress -qz
 ok 'an option of another command' refuses 2 "'inspect' has no option '--garment'" inspect --garment x
 ok 'an unknown command, with the nearest one' refuses 2 "did you mean 'dress'" drees
+ok 'the nearest, not the first that is near' refuses 2 "did you mean 'draw'" drew
 ok 'an option in front of the command' refuses 2 "expected a command in front of '-q'" -q dress
 ok 'a mistake tells where to read on' refuses 2 "^Use 'kitsuke dress --help'" dress --nope
 ok 'contradicting options are both named' refuses 2 "'--quiet' and '--verbose'" dress -q -v
@@ -166,6 +167,7 @@ is 'no progress on a pipe' "$(tr -d -c '\r' <err | wc -c | tr -d ' ')" 0
 if [ -w /dev/full ]; then
     full() { must_fail 4 sh -c '"$KITSUKE" inspect --joints "$1" >/dev/full' sh "$walk" && says 'standard output'; }
     ok 'standard output on a full disk: exit 4' full
+    ok 'what cannot be written is named' refuses 4 "cannot write '/dev/full': No space left" walk -o /dev/full
 else
     skip 'standard output on a full disk' 'no /dev/full'
 fi

@@ -19,7 +19,7 @@ typedef struct { int first, last, step; } FrameSpan;
 /* The k-th of n parts, from 1; 0: the whole. */
 typedef struct { int k, n; } Shard;
 
-typedef struct { int count; const char **item; } TextList;
+typedef struct { int count, capacity; const char **item; } TextList;
 
 typedef enum { FORMAT_OBJ = 1, FORMAT_DRC = 2, FORMAT_NONE = 4 } FormatBit;
 /* What is compared: global, no local deformation; paper, the paper's to the letter. */

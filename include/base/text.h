@@ -79,9 +79,6 @@ const char *text_shortest(double x, char out[TEXT_SHORTEST]);
 /* Does a file's name end in `ending`, such as ".bvh" or ".BVH", with something in front of it? */
 bool text_ends_in(const char *name, const char *ending);
 
-/* Edit distance for "did you mean", capped at 9. */
-int text_distance(const char *a, const char *b);
-
 /* The candidate that a wrong word was probably meant to be: begin with {.word = ...}, try them all. */
 typedef struct {
     const char *word, *best; /* best: NULL while nothing is near enough */

@@ -31,7 +31,7 @@ typedef struct {
 void gait_defaults(Gait *g);
 
 /* Writes the motion as BVH (cm, or mm for who is less than 83 cm tall; Y up, walking along +Z).
-   ERR_USAGE for values out of range or impossible together. */
+   ERR_USAGE for values out of range or impossible together; whether `out` has an error is left to the caller. */
 MUST_CHECK bool gait_write(const Gait *g, FILE *out, Error *e);
 
 #endif

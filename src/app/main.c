@@ -49,9 +49,9 @@ static const Command *find_command(const char *name) {
 
 static bool unknown_command(const char *name, Error *e) {
     if (name[0] == '-') return error_set(e, ERR_USAGE, "expected a command in front of '%s'", name);
-    for (const Command *c = commands; c->name; c++)
-        if (text_distance(c->name, name) <= 2)
-            return error_set(e, ERR_USAGE, "unknown command '%s'; did you mean '%s'?", name, c->name);
+    Nearest near = {.word = name};
+    for (const Command *c = commands; c->name; c++) nearest_try(&near, c->name);
+    if (near.best) return error_set(e, ERR_USAGE, "unknown command '%s'; did you mean '%s'?", name, near.best);
     return error_set(e, ERR_USAGE, "unknown command '%s'", name);
 }
 

@@ -146,7 +146,7 @@ static bool check_output(const Command *command, const Settings *s, Error *e) {
     for (const Option *o = settings_table; o->name && s->output; o++) {
         if (!(o->commands & command->bit) || !settings_is_path(o) || o->field == offsetof(Settings, output)) continue;
         void *field = field_of(s, o);
-        const TextList one = {1, field}, *list = o->kind == KIND_LIST ? field : &one;
+        const TextList one = {.count = 1, .item = field}, *list = o->kind == KIND_LIST ? field : &one;
         for (int i = 0; i < list->count; i++)
             if (list->item[i] && !check_input(s, list->item[i], e)) return false;
     }

@@ -162,12 +162,9 @@ static bool put_shard(Shard *field, const Option *option, const char *text, Erro
 }
 
 bool settings_append(TextList *list, const char *text, Arena *arena, Error *e) {
-    if ((list->count & (list->count - 1)) == 0) { /* full at every power of two */
-        const char **more = ARENA_NEW(arena, const char *, list->count ? 2 * list->count : 1, e);
-        if (!more) return false;
-        if (list->count) memcpy(more, list->item, (size_t)list->count * sizeof *more);
-        list->item = more;
-    }
+    const char **more = ARENA_GROW(arena, const char *, list->item, list->count, &list->capacity, e);
+    if (!more) return false;
+    list->item = more;
     list->item[list->count++] = text;
     return true;
 }

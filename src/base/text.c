@@ -194,7 +194,8 @@ bool text_ends_in(const char *name, const char *ending) {
     return n > k && strcasecmp(name + n - k, ending) == 0;
 }
 
-int text_distance(const char *a, const char *b) {
+/* Edit distance, capped at 9. */
+static int distance(const char *a, const char *b) {
     enum { MOST = 40 };
     int row[MOST + 1], la = (int)strlen(a), lb = (int)strlen(b);
     if (la > MOST || lb > MOST) return 9;
@@ -217,7 +218,7 @@ int text_distance(const char *a, const char *b) {
 void nearest_try(Nearest *n, const char *candidate) {
     int length = (int)strlen(n->word), most = length / 4 + 1;
     bool beginning = length >= 3 && strncmp(candidate, n->word, (size_t)length) == 0;
-    int d = beginning ? 1 : text_distance(n->word, candidate);
+    int d = beginning ? 1 : distance(n->word, candidate);
     if (d > most || (n->best && d >= n->distance)) return;
     n->best = candidate;
     n->distance = d;

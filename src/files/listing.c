@@ -8,13 +8,10 @@
 
 static int by_bytes(const void *a, const void *b) { return strcmp(*(const char *const *)a, *(const char *const *)b); }
 
-static bool add_name(Listing *list, const char *name, Arena *arena, Error *e) {
-    if ((list->count & (list->count - 1)) == 0) { /* full at every power of two */
-        const char **more = ARENA_NEW(arena, const char *, list->count ? 2 * list->count : 1, e);
-        if (!more) return false;
-        if (list->count) memcpy(more, list->name, (size_t)list->count * sizeof *more);
-        list->name = more;
-    }
+static bool add_name(Listing *list, int *capacity, const char *name, Arena *arena, Error *e) {
+    const char **more = ARENA_GROW(arena, const char *, list->name, list->count, capacity, e);
+    if (!more) return false;
+    list->name = more;
     list->name[list->count] = arena_text(arena, name, strlen(name), e);
     return list->name[list->count++] != NULL;
 }
@@ -24,8 +21,9 @@ bool listing_read(const char *folder, Arena *arena, Listing *out, Error *e) {
     DIR *open = opendir(folder[0] ? folder : ".");
     if (!open) return error_set(e, ERR_INPUT, "cannot open the folder '%s': %s", folder, strerror(errno));
     bool good = true;
+    int capacity = 0;
     for (struct dirent *entry; good && (entry = readdir(open));)
-        if (entry->d_name[0] != '.') good = add_name(out, entry->d_name, arena, e);
+        if (entry->d_name[0] != '.') good = add_name(out, &capacity, entry->d_name, arena, e);
     closedir(open);
     if (good && out->count) qsort(out->name, (size_t)out->count, sizeof *out->name, by_bytes);
     return good;
