@@ -112,6 +112,9 @@ spoilt 'called body' body 's/^garment .*/garment body/'
 spoilt 'a name that leads out' '' 's/^garment .*/garment ..\/..\/x/'
 spoilt 'nan' number 's/^ring hip .*/ring hip pelvis 0.4 ease nan/'
 spoilt 'a huge number' '' 's/^ring hip .*/ring hip pelvis 0.4 ease 1e9/'
+spoilt 'per cent of a bone' 'from -10 to 10' 's/^ring hip .*/ring hip pelvis 40/'
+sed 's/^ring hip .*/ring hip pelvis 0.4 ease -0.5/' "$skirt" >x.garment
+garment 'a ring that leaves no room for the body' "ring 'hip' has no size left"
 spoilt 'an unknown side' up 's/^seam front.end/seam front.up/'
 spoilt 'a seam that does not meet' '' 's/^seam front.end back.start/seam front.end back.end/'
 spoilt 'a row that goes nowhere' '' 's/  row knee  left front right/  row knee  left front left/'

@@ -32,8 +32,8 @@ MUST_CHECK bool check_collide(const Garment *g, const Collide *collide, Why *why
 MUST_CHECK bool check_pin(const Garment *g, const Pin *pin, Why *why);
 
 /* Can a garment that follows the envelope have this panel: all of its rings, in the order of the
-   file, on torso and legs, each below the one before? */
-MUST_CHECK bool check_envelope(const Garment *g, const Panel *panel, Why *why);
+   file, on torso and legs, each below the one before? *ring: the one that is wrong; -1: the panel is. */
+MUST_CHECK bool check_envelope(const Garment *g, const Panel *panel, int *ring, Why *why);
 
 /* Adds the mirror image of everything whose name begins with `from`, named with `to` instead. */
 MUST_CHECK bool garment_mirror(Garment *g, const char *from, const char *to, Why *why);

@@ -35,8 +35,7 @@ MUST_CHECK bool fit_number_points(Fit *f, Arena *arena, Error *e);
 
 /* Appends the raw patches, sized to the figure, and sews them. private_names: the last name that
    was given to a point that nobody shares. */
-MUST_CHECK bool fit_raw_patches(Fit *f, const Figure *figure, const Body *body, int *private_names, Arena *arena,
-                                Error *e);
+MUST_CHECK bool fit_raw_patches(Fit *f, const Figure *figure, int *private_names, Arena *arena, Error *e);
 
 /* How far du x dw of the quad (u0 w0, u0 w1, u1 w0, u1 w1) points away from `centre`: positive is
    outwards; grows with the area. */

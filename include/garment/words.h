@@ -6,6 +6,7 @@
 #include "garment/garment.h"
 
 enum { LENGTH_MAX = 100 }; /* metres; nothing worn is longer */
+enum { PLACE_MAX = 10 };   /* bone lengths; a ring farther from its bone is a slip of the pen, per cent most often */
 
 /* nearest_error at word i. */
 bool words_unknown(const Line *line, int i, Error *e, const char *what, const Nearest *n);

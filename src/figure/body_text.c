@@ -46,11 +46,7 @@ static bool read_role(const Line *line, const BodySpec *body, Role *role, Error 
     char name[32];
     if (!text_word(line, 1, name, sizeof name, e) || !no_more_words(line, 2, e)) return false;
     *role = role_find(name, (int)strlen(name));
-    if (*role == ROLE_COUNT) {
-        Nearest near = {.word = name};
-        for (int r = 0; r < ROLE_COUNT; r++) nearest_try(&near, role_name((Role)r));
-        return nearest_error(&near, "body part", text_place(&line->at, line->word[1]), e);
-    }
+    if (*role == ROLE_COUNT) return role_unknown(name, "body part", text_place(&line->at, line->word[1]), e);
     if (find_part(body, *role)) return text_error(line, 1, e, "part '%s' is given twice", name);
     if (body->nparts == BODY_PARTS_MAX) return text_error(line, 0, e, "more than %d parts", BODY_PARTS_MAX);
     return true;
@@ -98,10 +94,10 @@ static bool read_caps(const Line *line, BodyPartSpec *part, Error *e) {
     return no_more_words(line, 3, e);
 }
 
-/* A part is complete when the next line begins something else; `where` is that line. */
+/* A part is complete when something else begins; `where` is the line that began it. */
 static bool end_part(const BodyPartSpec *open, const Line *where, Error *e) {
     if (!open || open->nsections >= 2) return true;
-    return text_error(where, 0, e, "part '%s' has %d section%s, it needs at least 2", role_name(open->role),
+    return text_error(where, 1, e, "part '%s' has %d section%s, it needs at least 2", role_name(open->role),
                       open->nsections, open->nsections == 1 ? "" : "s");
 }
 
@@ -117,7 +113,7 @@ static bool read_header(Cursor *c, Line *line, BodySpec *out, Error *e) {
 bool body_parse(const Text *text, BodySpec *out, Error *e) {
     memset(out, 0, sizeof *out);
     Cursor c = text_start(text);
-    Line line = {0};
+    Line line = {0}, opening = {0};
     if (!read_header(&c, &line, out, e)) return false;
     BodyPartSpec *open = NULL;
     while (text_line(&c, &line, e)) {
@@ -127,13 +123,14 @@ bool body_parse(const Text *text, BodySpec *out, Error *e) {
             if (!(section ? read_section : read_caps)(&line, open, e)) return false;
             continue;
         }
-        if (!end_part(open, &line, e)) return false;
+        if (!end_part(open, &opening, e)) return false;
         open = NULL;
         if (text_is(&line, 0, "part")) {
             Role role = ROLE_COUNT;
             if (!read_role(&line, out, &role, e)) return false;
             open = &out->part[out->nparts++];
             open->role = role;
+            opening = line;
         } else if (text_is(&line, 0, "mirror")) {
             if (!read_mirror(&line, out, e)) return false;
         } else {
@@ -141,7 +138,7 @@ bool body_parse(const Text *text, BodySpec *out, Error *e) {
                               error_shown(line.length[0]), line.word[0]);
         }
     }
-    if (e->kind != ERR_NONE || !end_part(open, &line, e)) return false;
+    if (e->kind != ERR_NONE || !end_part(open, &opening, e)) return false;
     return out->nparts > 0 || text_error(&line, line.count, e, "a body needs at least one part");
 }
 

@@ -43,6 +43,12 @@ Role role_find(const char *name, int length) {
     return ROLE_COUNT;
 }
 
+bool role_unknown(const char *name, const char *what, Place place, Error *e) {
+    Nearest near = {.word = name};
+    for (int r = 0; r < ROLE_COUNT; r++) nearest_try(&near, names[r]);
+    return nearest_error(&near, what, place, e);
+}
+
 /* --- the file --- */
 
 static bool blank(char c) { return c == ' ' || c == '\t'; }
@@ -56,12 +62,6 @@ static bool copy_trimmed(const char *from, const char *to, char *out, size_t n) 
     memcpy(out, from, length);
     out[length] = '\0';
     return true;
-}
-
-static bool unknown_role(Place place, const char *role, Error *e) {
-    Nearest near = {.word = role};
-    for (int r = 0; r < ROLE_COUNT; r++) nearest_try(&near, names[r]);
-    return nearest_error(&near, "role", place, e);
 }
 
 static bool unknown_joint(const Skeleton *s, Place place, const char *joint, Error *e) {
@@ -80,7 +80,7 @@ MUST_CHECK static bool read_line(const Skeleton *s, const Line *line, bool *give
     if (!copy_trimmed(start, equals, role_text, sizeof role_text))
         return error_at(e, ERR_INPUT, at_role, "role name too long");
     Role role = role_find(role_text, (int)strlen(role_text));
-    if (role == ROLE_COUNT) return unknown_role(at_role, role_text, e);
+    if (role == ROLE_COUNT) return role_unknown(role_text, "role", at_role, e);
     if (given[role]) return error_at(e, ERR_INPUT, at_role, "role '%s' given twice", role_text);
     given[role] = true;
 

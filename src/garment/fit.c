@@ -178,7 +178,7 @@ bool fit_garment(const Garment *garment, const Figure *figure, const Body *body,
     for (int p = 0; p < out->npanels; p++)
         for (int k = 0; k + 1 < out->panel[p].nrows; k++) make_panel_patch(&t, p, k);
     for (int p = 0; p < out->npanels; p++) face_outwards(&t, p);
-    if (!fit_raw_patches(out, figure, body, &t.private_names, arena, e)) return false;
+    if (!fit_raw_patches(out, figure, &t.private_names, arena, e)) return false;
     if (!fit_number_points(out, arena, e)) return false;
     complete_colliders(out);
     return true;

@@ -92,7 +92,6 @@ static bool sew(Fit *f, Error *e) {
     return true;
 }
 
-bool fit_raw_patches(Fit *f, const Figure *figure, const Body *body, int *private_names, Arena *arena, Error *e) {
-    f->scale = body->scale;
+bool fit_raw_patches(Fit *f, const Figure *figure, int *private_names, Arena *arena, Error *e) {
     return make_patches(f, figure, private_names, arena, e) && sew(f, e);
 }

@@ -67,6 +67,9 @@ static bool place_ring(Tailor *t, int r, Error *e) {
         s.front = ring->front * measure.z;
         s.back = ring->back * measure.z;
     }
+    if (s.side + ease <= 0 || s.front + ease <= 0 || s.back + ease <= 0)
+        return error_set(e, ERR_INPUT, "garment '%s': ring '%s' has no size left: 'ease %g' is more than its '%s' has",
+                         t->g->name, ring->name, ring->ease, role_name(ring->part));
     Mat3 tilt = mat_axis_angle(vec(0, 0, 1), ring->tilt * PI / 180);
     RingFrame *f = &t->ring[r];
     f->centre = vec_add(centre, by_axis(ring->shift, measure));

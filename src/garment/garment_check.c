@@ -248,15 +248,16 @@ static double height_of(const Figure *figure, const Ring *ring) {
     return low + (high - low) * ring->at + ring->shift.y;
 }
 
-bool check_envelope(const Garment *g, const Panel *panel, Why *why) {
+bool check_envelope(const Garment *g, const Panel *panel, int *wrong, Why *why) {
     Figure figure = figure_reference();
     bool all = panel->nrows == g->nrings;
     for (int i = 0; i < panel->nrows; i++) all = all && panel->row[i].ring == i;
+    *wrong = -1;
     if (!all)
         return refuse(why, "panel '%s' does not have all rings in their order, '%s' to '%s': they are one envelope",
                       panel->name, g->ring[0].name, g->ring[g->nrings - 1].name);
     for (int i = 0; i < panel->nrows; i++) {
-        const Ring *ring = &g->ring[panel->row[i].ring];
+        const Ring *ring = &g->ring[*wrong = panel->row[i].ring];
         if (!torso_or_leg(ring->part))
             return refuse(why, "the envelope holds torso and legs, not the ring '%s' on '%s'", ring->name,
                           role_name(ring->part));

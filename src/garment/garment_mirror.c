@@ -41,9 +41,14 @@ typedef struct {
 
 static bool has_prefix(const Mirror *m, const char *name) { return strncmp(name, m->from, strlen(m->from)) == 0; }
 
-/* The mirrored name, checked to be new. */
+/* What a name with the first prefix is with the second; returns its length. */
+static int image_name(const Mirror *m, const char *name, char *out, size_t size) {
+    return snprintf(out, size, "%s%s", m->to, name + strlen(m->from));
+}
+
+/* The same, checked to be new. */
 static bool other_name(Mirror *m, const char *name, char out[GARMENT_NAME_MAX]) {
-    int n = snprintf(out, GARMENT_NAME_MAX, "%s%s", m->to, name + strlen(m->from));
+    int n = image_name(m, name, out, GARMENT_NAME_MAX);
     if (n >= GARMENT_NAME_MAX)
         return refuse(m->why, "the mirrored name of '%s' is longer than %d bytes", name, GARMENT_NAME_MAX - 1);
     if (garment_find_ring(m->g, out) >= 0 || garment_find_piece(m->g, out) >= 0)
@@ -68,14 +73,14 @@ static Binding other_binding(Binding b) {
 static int other_ring(const Mirror *m, int ring) {
     char name[2 * GARMENT_NAME_MAX];
     if (ring < 0 || !has_prefix(m, m->g->ring[ring].name)) return ring;
-    snprintf(name, sizeof name, "%s%s", m->to, m->g->ring[ring].name + strlen(m->from));
+    image_name(m, m->g->ring[ring].name, name, sizeof name);
     return garment_find_ring(m->g, name);
 }
 
 static int other_piece(const Mirror *m, int piece) {
     char name[2 * GARMENT_NAME_MAX];
     if (piece < 0 || !has_prefix(m, garment_piece_name(m->g, piece))) return piece;
-    snprintf(name, sizeof name, "%s%s", m->to, garment_piece_name(m->g, piece) + strlen(m->from));
+    image_name(m, garment_piece_name(m->g, piece), name, sizeof name);
     return garment_find_piece(m->g, name);
 }
 
@@ -112,7 +117,8 @@ static bool mirror_panels(Mirror *m) {
         Panel *panel = garment_add_panel(m->g, image.name);
         if (!panel) return refuse(m->why, "more than %d panels", GARMENT_PANELS_MAX);
         *panel = image;
-        if (m->g->follow == FOLLOW_ENVELOPE && !check_envelope(m->g, panel, m->why)) return false;
+        int ring;
+        if (m->g->follow == FOLLOW_ENVELOPE && !check_envelope(m->g, panel, &ring, m->why)) return false;
         m->copies++;
     }
     return true;

@@ -18,6 +18,7 @@ typedef struct {
     int npoints;
     Line opening; /* the line of the open piece */
     Line title;   /* the line `garment NAME` */
+    Place ring[GARMENT_RINGS_MAX]; /* where its name stands; a mirror image has no place */
     bool has_title, has_follow, has_fit;
     bool moved[GARMENT_RINGS_MAX][STATION_COUNT];
     int bound[GARMENT_RINGS_MAX][STATION_COUNT]; /* 1: with its ring, 2: by itself */
@@ -106,7 +107,7 @@ static bool read_ring(Parser *p, const Line *line, Error *e) {
     Ring *ring = &g->ring[g->nrings];
     memset(ring, 0, sizeof *ring);
     if (!read_new_name(g, line, ring->name, e) || !words_part(line, 2, &ring->part, e) ||
-        !words_number(line, 3, -LENGTH_MAX, LENGTH_MAX, &ring->at, e))
+        !words_number(line, 3, -PLACE_MAX, PLACE_MAX, &ring->at, e))
         return false;
     for (int i = 4, k; i < line->count; i += 1 + numbers[k]) {
         k = words_choose(line, i, "property of a ring", words, OPTION_COUNT, e);
@@ -119,7 +120,7 @@ static bool read_ring(Parser *p, const Line *line, Error *e) {
         (ring->side + ring->ease <= 0 || ring->front + ring->ease <= 0 || ring->back + ring->ease <= 0))
         return text_error(line, 1, e, "the ring '%s' has no size left: sizes and ease must sum to more than 0",
                           ring->name);
-    g->nrings++;
+    p->ring[g->nrings++] = text_place(&line->at, line->word[1]);
     return true;
 }
 
@@ -320,10 +321,14 @@ enum { STATEMENTS = sizeof statements / sizeof *statements };
 /* The open piece is complete: another statement, or the end of the file, came. */
 static bool close_piece(Parser *p, Error *e) {
     Why why;
+    int ring;
     if (p->panel && p->panel->nrows < 2)
         return text_error(&p->opening, 1, e, "panel '%s' has %d of at least 2 rows", p->panel->name, p->panel->nrows);
-    if (p->panel && p->g->follow == FOLLOW_ENVELOPE && !check_envelope(p->g, p->panel, &why))
-        return text_error(&p->opening, 1, e, "%s", why.text);
+    if (p->panel && p->g->follow == FOLLOW_ENVELOPE && !check_envelope(p->g, p->panel, &ring, &why)) {
+        Place place = ring >= 0 ? p->ring[ring] : (Place){0};
+        return place.file ? error_at(e, ERR_INPUT, place, "%s", why.text)
+                          : text_error(&p->opening, 1, e, "%s", why.text);
+    }
     if (p->patch && p->npoints < 16)
         return text_error(&p->opening, 1, e, "patch '%s' has %d of its 16 points", p->patch->name, p->npoints);
     if (p->patch && !check_area(p->patch, &why)) return text_error(&p->opening, 1, e, "%s", why.text);

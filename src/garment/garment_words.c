@@ -11,6 +11,17 @@ bool words_unknown(const Line *line, int i, Error *e, const char *what, const Ne
     return nearest_error(n, what, text_place(&line->at, line->word[i]), e);
 }
 
+/* A word that is near none of those that could stand there: so all of them are named. */
+static void unknown_choice(const Line *line, int i, const char *what, const char *const *words, int n, Error *e) {
+    char list[120] = "";
+    size_t used = 0;
+    for (int k = 0; k < n && used < sizeof list; k++)
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", k == 0 ? "" : k + 1 < n ? ", " : " or ",
+                                 words[k]);
+    int shown = error_shown(line->length[i]);
+    text_error(line, i, e, "unknown %s '%.*s': expected %s", what, shown, line->word[i], list);
+}
+
 int words_choose(const Line *line, int i, const char *what, const char *const *words, int n, Error *e) {
     char word[GARMENT_NAME_MAX];
     if (!text_word(line, i, word, sizeof word, e)) return -1;
@@ -19,7 +30,8 @@ int words_choose(const Line *line, int i, const char *what, const char *const *w
         if (strcmp(word, words[k]) == 0) return k;
         nearest_try(&near, words[k]);
     }
-    words_unknown(line, i, e, what, &near);
+    if (near.best) words_unknown(line, i, e, what, &near);
+    else unknown_choice(line, i, what, words, n, e);
     return -1;
 }
 
@@ -28,9 +40,7 @@ bool words_part(const Line *line, int i, Role *out, Error *e) {
     if (!text_word(line, i, word, sizeof word, e)) return false;
     *out = role_find(word, (int)strlen(word));
     if (*out < ROLE_COUNT) return true;
-    Nearest near = {.word = word};
-    for (Role r = 0; r < ROLE_COUNT; r++) nearest_try(&near, role_name(r));
-    return words_unknown(line, i, e, "body part", &near);
+    return role_unknown(word, "body part", text_place(&line->at, line->word[i]), e);
 }
 
 bool words_ring_named(const Garment *g, const char *name, const Line *line, int i, int *out, Error *e) {
