@@ -127,7 +127,7 @@ mkdir -p 'names/...' 'names/a
 b' names/con names/.hidden
 long=$(awk 'BEGIN { for (i = 0; i < 250; i++) printf "n" }')
 for name in '.../...bvh' 'a
-b/c	d.bvh' con/aux.bvh '.hidden/.done.bvh' "$long.bvh" 'x.done.bvh' 'summary.csv.lock.bvh' '*?.bvh' \
+b/c	d.bvh' con/aux.bvh '.hidden/.done.bvh' "$long.bvh" 'x.done.bvh' 'summary.csv.lock.bvh' 'Stats.CSV.bvh' '*?.bvh' \
     '"quoted", with comma.bvh' '#.bvh' "$(printf '\377\376.bvh')" '~.bvh' '$(touch out).bvh' '.bvh'; do
     cp in/walk1.bvh "names/$name"
 done
@@ -145,6 +145,8 @@ is 'nothing outside of the folder' \
 is 'no control byte in a name' \
     "$(find cage | tr -d '\n' | tr -d -c '\001-\037\177' | wc -c | tr -d ' ')" 0
 is 'nor one that another system does not take' "$(find cage | grep '[\\:*?"<>|]')" ''
+is 'nor one that a file of ours may have, on any disk' \
+    "$(find cage/inner/out -mindepth 1 -type d | grep -Ei '\.(obj|drc|csv|tmp|lock|done)$')" ''
 is 'every motion has a folder of its own' "$(find cage -name stats.csv | wc -l | tr -d ' ')" \
     "$(grep -c ',ok,' cage/inner/out/summary.csv)"
 like 'as many as there were' "$(grep -c ',ok,' cage/inner/out/summary.csv)" '^1[5-9]$'

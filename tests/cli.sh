@@ -109,6 +109,9 @@ for command in dress compare; do
 done
 is 'and makes none that is called -' "$(ls -d ./- 2>/dev/null)" ''
 ok 'nothing to inspect' refuses 2 'nothing to inspect' inspect
+ok '--joints of frames that the motion does not have' refuses 2 'begins at 73' inspect --joints --frames 73 "$walk"
+"$KITSUKE" inspect --joints --frames 60::6 "$walk" >joints.csv
+is 'and of those that it has' "$(cut -d, -f1 joints.csv | uniq | tr '\n' ' ')" 'frame 60 66 72 '
 ok '--joints takes one file' refuses 2 "'--joints'" inspect --joints "$walk" "$walk"
 ok 'nothing to verify' refuses 2 'nothing to verify' verify
 ok 'a garment without a body' refuses 2 "needs '--body'" verify -g x

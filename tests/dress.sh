@@ -160,9 +160,12 @@ cp "$walk" crowded/a.amc
 must_fail 4 "$KITSUKE" dress crowded -g "$skirt" -o crowded >log
 like 'a file where a folder has to be is no earlier run' "$(cat err)" "cannot make the folder 'crowded/a.amc': Not a"
 is 'nothing was touched' "$(list again/paper-walk)" "$(list step/paper-walk | sed 's/ \.\/skirt/ .\/notes.txt&/')"
+printf 'mine\n' | tee again/paper-walk/sketch.12.obj >again/paper-walk/sketch.obj
+printf 'torn\n' >again/paper-walk/skirt.0099.obj.tmp
 dress "$walk" -g "$skirt" -o again --frames 1:2 --force --no-body
 is '--force leaves none of the old frames, and what is not ours' "$(list again/paper-walk)" \
-    './notes.txt ./skirt.0001.drc ./skirt.0001.obj ./skirt.0002.drc ./skirt.0002.obj ./stats.csv '
+    "$(printf './%s ' notes.txt sketch.12.obj sketch.obj skirt.0001.drc skirt.0001.obj skirt.0002.drc skirt.0002.obj \
+        stats.csv)"
 cp again/paper-walk/stats.csv kept.csv
 printf 'garbage\n' >gone.bvh
 mkdir -p again/gone && printf 'old\n' >again/gone/stats.csv

@@ -44,9 +44,20 @@ ok 'and its motion is another' must_fail 1 diff -r whole out.d
 cp kept.bvh in/walk1.bvh
 ok 'the old input brings the old bytes back' dressed '\(3 before\), 6 frames' --resume -o out.d
 ok 'and all is whole' is_whole
-sed 's/ease 0.040/ease 0.041/; s/^# .*/# changed/' moved.garment >skirt.garment
+sed 's/^# .*/# changed/' moved.garment >skirt.garment
 ok 'a changed garment: everything is done again' again ' dressed, 48 frames'
 cp moved.garment skirt.garment
+cp "$root/garments/adult.body" own.body
+printf 'pelvis = Hips\n' >own.roles
+own() { # own PATTERN: the last line of a resumed run
+    "$KITSUKE" dress in/walk1.bvh -g skirt.garment --body own.body --roles own.roles -o own --format none \
+        --resume 2>err && says "$1"
+}
+ok 'with a body and roles' eval 'own ", 6 frames" && own "1 before"'
+for file in own.body own.roles; do
+    echo '# changed' >>$file
+    ok "$file is an input too" own ', 6 frames'
+done
 for option in '--detail 3' '--no-body' '--format obj' '--frames 1:5' '--rate 20' '--unit in' '--split uniform'; do
     # shellcheck disable=SC2086  # an option and its value
     ok "another option: $option" again '^4 of 5 motions dressed, ' $option

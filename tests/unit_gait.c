@@ -457,19 +457,6 @@ static void test_refusals(void) {
     REFUSED("takes no", g.preset = "squat"; g.speed = 1);
 }
 
-static void test_full_disk(void) {
-    Error e = {0};
-    const char *full = link_to("/dev/full", "full.bvh");
-    FILE *out = full ? fopen(full, "w") : NULL;
-    Gait g = gait("normal");
-    if (out) {
-        OK(!gait_write(&g, out, &e) && e.kind == ERR_OUTPUT, "a full disk is told: %s", e.text);
-        fclose(out);
-    } else {
-        SKIP("a full disk is told", "no /dev/full");
-    }
-}
-
 int main(void) {
     if (!folder_make()) return 1;
     test_table();
@@ -486,7 +473,6 @@ int main(void) {
     test_squat_and_turn();
     test_knee_lift();
     test_refusals();
-    test_full_disk();
     folder_remove();
     return tap_done();
 }

@@ -13,14 +13,14 @@ enum { MODEL_FILE_MAX = 1 << 20 };
 /* Nine digits give every position to a billionth of the largest one. */
 static bool print_joints(const Motion *m, const FrameSpan *span, Arena *arena, Error *e) {
     const Skeleton *s = &m->skeleton;
+    FrameSpan all;
+    if (!take_span(m, span, 0, &all, e)) return false;
     double *row = ARENA_NEW(arena, double, s->nchannels, e);
     Rigid *world = ARENA_NEW(arena, Rigid, s->njoints, e);
     MotionReader *reader = NULL;
     bool good = row && world && motion_reader_open(m, arena, &reader, e);
-    int first = span->first ? span->first : 1, step = span->step ? span->step : 1;
-    int last = span->last && span->last < m->nframes ? span->last : m->nframes;
     printf("frame,joint,x,y,z\n");
-    for (long f = first; good && f <= last && !ferror(stdout); f += step) {
+    for (long f = all.first; good && f <= all.last && !ferror(stdout); f += all.step) {
         good = motion_row(reader, (int)f - 1, row, e);
         if (!good) break;
         skeleton_pose(s, row, world);

@@ -61,7 +61,8 @@ bool text_read(const char *path, size_t limit, Arena *arena, Text *out, Error *e
         out->data += 3;
         out->size -= 3;
     }
-    return !memchr(out->data, 0, out->size) || error_set(e, ERR_INPUT, "'%s' is a binary file, not text", path);
+    return !memchr(out->data, 0, out->size) ||
+           error_set(e, ERR_INPUT, "'%s' is a binary file or UTF-16, not plain text", path);
 }
 
 Cursor text_start(const Text *text) { return (Cursor){text, text->data, text->data, 1}; }
