@@ -39,8 +39,8 @@ static void open_cloth(Sunk *c) {
     need(s, c->mesh.position && c->other);
     unsigned own = 1u << ROLE_CHEST;
     int room = s->body.skin.nedges;
-    need(s, tester_reserve(&c->moved, room, room, own, &s->arena, &s->error));
-    need(s, tester_reserve(&c->anew, room, room, own, &s->arena, &s->error));
+    need(s, tester_reserve(&c->moved, room, room, room, own, &s->arena, &s->error));
+    need(s, tester_reserve(&c->anew, room, room, room, own, &s->arena, &s->error));
     for (int v = 0; v < c->mesh.nvertices; v++) c->mesh.position[v] = somewhere_near(c, v);
 }
 

@@ -85,8 +85,10 @@ void push_rest(Push *p);
 /* Fills active, pinched and displacement of *result. */
 void push_measure(const Push *p, PushResult *result);
 
-/* clear[v]: is vertex v known to be outside of all parts? */
-void push_clear(const Push *p, bool *clear);
+/* Is a vertex known to be outside of all parts? */
+static inline bool push_is_clear(const Push *p, int vertex) {
+    return p->near_known && near_clear(&p->near[vertex], p->point[vertex]);
+}
 
 /* push_keep stores a solution with its vertices, push_restore returns to it after another attempt. The sheet must then
    be that of the first one again. */

@@ -50,6 +50,10 @@ typedef struct {
     CrossingCount count;
 } Wrong;
 
+/* Private. The parts that a vertex is inside of (bits 1 << part), and how deep it is in those that the garment is worn
+   over and in others, metres. */
+typedef struct { unsigned parts; double own, other; } TesterSunk;
+
 /* The last test's mesh, boxed, and where it found what. */
 typedef struct {
     unsigned own;         /* parts (bits 1 << role) that the garment is worn over */
@@ -66,17 +70,19 @@ typedef struct {
     bool *moves;          /* per vertex */
     Crossing *found;
     Box *block;           /* boxes round the vertices */
+    TesterSunk *sunk;     /* per vertex */
+    int *inside;          /* the vertices inside parts */
 } Tester;
 
-/* Room for meshes of up to this many edges and triangles. own: see Tester. */
-MUST_CHECK bool tester_reserve(Tester *t, int edges, int triangles, unsigned own, Arena *arena, Error *e);
+/* Room for meshes of up to this many vertices, edges and triangles. own: see Tester. */
+MUST_CHECK bool tester_reserve(Tester *t, int vertices, int edges, int triangles, unsigned own, Arena *arena, Error *e);
 
 /* Tests a mesh in output units against all parts; its arrays must stay until the last test. clear, if not NULL: per
    vertex whether it is known to be outside of all parts, so that it need not be asked. */
 Wrong tester_test(Tester *t, const BodyFrame *body, const Mesh *mesh, const bool *clear);
 
-/* Moves n vertices of that mesh, vertex[k] to to[k], and tests it again. w: the last test's result. The new result,
-   t->bad and t->hit are those of a test of the whole mesh, but for the order of the lists. */
+/* Moves n vertices of that mesh, vertex[k] to to[k], and tests it again. clear: of these alone. w: the last test's
+   result. The new result, t->bad and t->hit are those of a test of the whole mesh, but for the order of the lists. */
 Wrong tester_again(Tester *t, const BodyFrame *body, const int *vertex, const Vec3 *to, int n, const bool *clear,
                    Wrong w);
 

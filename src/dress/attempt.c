@@ -18,11 +18,12 @@ static const double FLAT = 5e-6;     /* metres: least height of a facet */
 
 bool cloth_reserve(Cloth *c, const Fit *fit, const Lattice *lattice, Arena *arena, Error *e) {
     *c = (Cloth){.fit = fit};
-    int triangles = lattice_triangles(lattice), places = lattice->nplaces;
+    int triangles = lattice_triangles(lattice), places = lattice->nplaces, row = lattice->detail + 1;
+    int most = lattice_cells(lattice) * row * row; /* vertices of leaves that share none (dress/literal) */
     if (!leaves_reserve(&c->leaves, lattice, arena, e) || !sheet_reserve(&c->sheet, lattice, arena, e) ||
         !morph_reserve(&c->morph, lattice, arena, e) || !push_reserve(&c->push, lattice, arena, e) ||
         !settle_reserve(&c->settler, lattice, arena, e) ||
-        !tester_reserve(&c->tester, 3 * triangles, triangles, fit->collide, arena, e))
+        !tester_reserve(&c->tester, most, 3 * triangles, triangles, fit->collide, arena, e))
         return false;
     c->position = ARENA_NEW(arena, Vec3, places, e);
     c->moved = ARENA_NEW(arena, Vec3, places, e);
@@ -35,16 +36,12 @@ static void add_pairs(FrameStats *stats, const Wrong *w) {
     stats->pairs_tested += w->count.pairs_tested;
 }
 
-/* Marks the vertices that are known to be outside of all parts, so that the test need not ask. */
-static const bool *find_clear(Cloth *c) {
-    push_clear(&c->push, c->flag);
-    return c->flag;
-}
-
 Wrong attempt_test(Cloth *c, const BodyFrame *body, FrameStats *stats) {
     mesh_snap_points(body->vectors, c->push.point, body->unit, c->sheet.nvertices, c->position);
     Mesh mesh = sheet_mesh(&c->sheet, c->position);
-    Wrong w = tester_test(&c->tester, body, &mesh, find_clear(c));
+    bool *is_clear = c->flag;
+    for (int v = 0; v < c->sheet.nvertices; v++) is_clear[v] = push_is_clear(&c->push, v);
+    Wrong w = tester_test(&c->tester, body, &mesh, is_clear);
     add_pairs(stats, &w);
     return w;
 }
@@ -53,8 +50,12 @@ Wrong attempt_test(Cloth *c, const BodyFrame *body, FrameStats *stats) {
 static Wrong test_raised(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *stats) {
     int n = c->settler.nraised;
     const int *raised = c->settler.raised;
-    for (int k = 0; k < n; k++) c->moved[k] = mesh_snap_point(vec_scale(c->push.point[raised[k]], body->unit));
-    w = tester_again(&c->tester, body, raised, c->moved, n, find_clear(c), w);
+    bool *is_clear = c->flag;
+    for (int k = 0; k < n; k++) {
+        is_clear[raised[k]] = push_is_clear(&c->push, raised[k]);
+        c->moved[k] = mesh_snap_point(vec_scale(c->push.point[raised[k]], body->unit));
+    }
+    w = tester_again(&c->tester, body, raised, c->moved, n, is_clear, w);
     add_pairs(stats, &w);
     return w;
 }

@@ -374,10 +374,6 @@ void push_vertex(Push *p, int vertex, Vec3 by, bool *capped) {
     p->point[vertex] = vec_add(p->global[vertex], field_limit(d, p->field.cap, capped));
 }
 
-void push_clear(const Push *p, bool *clear) {
-    for (int v = 0; v < p->sheet->nvertices; v++) clear[v] = p->near_known && near_clear(&p->near[v], p->point[v]);
-}
-
 void push_keep(Push *p, int nvertices) {
     p->nkept = nvertices;
     field_copy(&p->field, &p->kept);

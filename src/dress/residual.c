@@ -5,6 +5,8 @@
    what these had counted is subtracted, and what they count at their new places is added. */
 #include "dress/residual.h"
 
+#include <string.h>
+
 #include "geometry/boxtree.h"
 
 enum { FOUND_MAX = 1 << 13, BAD_MAX = 3 * FOUND_MAX, HITS_MAX = BAD_MAX / 2 };
@@ -15,19 +17,21 @@ static bool reserve_sets(TesterCloth *c, int edges, int triangles, Arena *arena,
     return crossing_reserve(&c->edges, edges, arena, e) && crossing_reserve(&c->triangles, triangles, arena, e);
 }
 
-bool tester_reserve(Tester *t, int edges, int triangles, unsigned own, Arena *arena, Error *e) {
+bool tester_reserve(Tester *t, int vertices, int edges, int triangles, unsigned own, Arena *arena, Error *e) {
     *t = (Tester){.own = own};
     t->found = ARENA_NEW(arena, Crossing, FOUND_MAX, e);
     t->hit = ARENA_NEW(arena, TesterHit, HITS_MAX, e);
     t->bad = ARENA_NEW(arena, int, BAD_MAX, e);
-    t->block = ARENA_NEW(arena, Box, edges / BLOCK + 1, e); /* a mesh has more edges than vertices */
-    t->moves = ARENA_NEW(arena, bool, edges, e);
+    t->block = ARENA_NEW(arena, Box, vertices / BLOCK + 1, e);
+    t->moves = ARENA_NEW(arena, bool, vertices, e);
     t->some_edges_most = edges / SOME + 1;
     t->some_triangles_most = triangles / SOME + 1;
     t->some_edge = ARENA_NEW(arena, Edge, t->some_edges_most, e);
     t->some_triangle = ARENA_NEW(arena, Triangle, t->some_triangles_most, e);
-    return t->found && t->hit && t->bad && t->block && t->moves && t->some_edge && t->some_triangle &&
-           reserve_sets(&t->all, edges, triangles, arena, e) &&
+    t->sunk = ARENA_NEW(arena, TesterSunk, vertices, e);
+    t->inside = ARENA_NEW(arena, int, vertices, e);
+    return t->found && t->hit && t->bad && t->block && t->moves && t->sunk && t->inside && t->some_edge &&
+           t->some_triangle && reserve_sets(&t->all, edges, triangles, arena, e) &&
            reserve_sets(&t->some, t->some_edges_most, t->some_triangles_most, arena, e);
 }
 
@@ -201,41 +205,72 @@ typedef struct {
     Vec3 point[LOT];
 } Suspects;
 
-/* The next ones from *v on, at most LOT; false where there are none left. */
-static bool next_suspects(const Tester *t, const BodyFrame *body, int part, const bool *clear, int *v, Suspects *out) {
-    double to_metres = 1 / body->unit;
-    out->n = 0;
-    for (; *v < t->nvertices && out->n < LOT; ++*v) {
-        if (*v % BLOCK == 0 && !box_touches(t->block[*v / BLOCK], body->box[part])) {
-            *v += BLOCK - 1;
-            continue;
-        }
-        if (clear && clear[*v]) continue;
-        Vec3 x = vec_scale(t->position[*v], to_metres);
-        out->vertex[out->n] = *v;
-        out->point[out->n] = x;
-        out->n += !body_frame_far(body, part, x, 0);
-    }
-    return out->n > 0;
+static void suspect(const Tester *t, const BodyFrame *body, int part, const bool *clear, int v, Suspects *of) {
+    if (clear && clear[v]) return;
+    Vec3 x = vec_scale(t->position[v], 1 / body->unit);
+    of->vertex[of->n] = v;
+    of->point[of->n] = x;
+    of->n += !body_frame_far(body, part, x, 0);
 }
 
-/* Counts the vertices inside parts anew, and appends them to the bad. */
-static void find_inside(Tester *t, const BodyFrame *body, const bool *clear, Wrong *w) {
-    Suspects of;
+/* Marks those that are. */
+static void ask(Tester *t, const BodyFrame *body, int part, const Suspects *of) {
+    bool is_own = t->own & part_bit(body, part);
     double distance[LOT];
+    body_frame_distances(body, part, of->point, of->n, 0, distance);
+    for (int k = 0; k < of->n; k++) {
+        if (distance[k] >= 0) continue;
+        TesterSunk *sunk = &t->sunk[of->vertex[k]];
+        sunk->parts |= 1u << part;
+        double *deepest = is_own ? &sunk->own : &sunk->other;
+        *deepest = fmax(*deepest, -distance[k]);
+    }
+}
+
+/* Asks all parts about all vertices. */
+static void find_inside(Tester *t, const BodyFrame *body, const bool *clear) {
+    Suspects of;
+    memset(t->sunk, 0, (size_t)t->nvertices * sizeof *t->sunk);
+    box_vertices(t, 1 / body->unit);
+    for (int p = 0; p < body->body->nparts; p++)
+        for (int v = 0; v < t->nvertices;) {
+            for (of.n = 0; v < t->nvertices && of.n < LOT; v++) {
+                bool is_near = v % BLOCK || box_touches(t->block[v / BLOCK], body->box[p]);
+                if (is_near) suspect(t, body, p, clear, v, &of);
+                else v += BLOCK - 1;
+            }
+            if (of.n > 0) ask(t, body, p, &of);
+        }
+}
+
+/* Asks all parts about n vertices. */
+static void find_inside_again(Tester *t, const BodyFrame *body, const int *vertex, int n, const bool *clear) {
+    Suspects of;
+    for (int k = 0; k < n; k++) t->sunk[vertex[k]] = (TesterSunk){0};
+    for (int p = 0; p < body->body->nparts; p++)
+        for (int k = 0; k < n;) {
+            for (of.n = 0; k < n && of.n < LOT; k++) suspect(t, body, p, clear, vertex[k], &of);
+            if (of.n > 0) ask(t, body, p, &of);
+        }
+}
+
+/* Counts the vertices inside parts, and appends them to the bad. */
+static void count_inside(Tester *t, const BodyFrame *body, Wrong *w) {
+    int n = 0;
     w->own.inside = w->other.inside = 0;
     w->own.deepest = w->other.deepest = 0;
-    box_vertices(t, 1 / body->unit);
-    for (int p = 0; p < body->body->nparts; p++) {
+    for (int v = 0; v < t->nvertices; v++) {
+        if (!t->sunk[v].parts) continue;
+        t->inside[n++] = v;
+        w->own.deepest = fmax(w->own.deepest, t->sunk[v].own);
+        w->other.deepest = fmax(w->other.deepest, t->sunk[v].other);
+    }
+    for (int p = 0; n > 0 && p < body->body->nparts; p++) {
         Residual *r = t->own & part_bit(body, p) ? &w->own : &w->other;
-        for (int v = 0; next_suspects(t, body, p, clear, &v, &of);) {
-            body_frame_distances(body, p, of.point, of.n, 0, distance);
-            for (int k = 0; k < of.n; k++) {
-                if (distance[k] >= 0) continue;
-                r->inside++;
-                r->deepest = fmax(r->deepest, -distance[k]);
-                add_bad(t, &of.vertex[k], 1);
-            }
+        for (int k = 0; k < n; k++) {
+            if (!(t->sunk[t->inside[k]].parts >> p & 1)) continue;
+            r->inside++;
+            add_bad(t, &t->inside[k], 1);
         }
     }
 }
@@ -248,13 +283,15 @@ Wrong tester_test(Tester *t, const BodyFrame *body, const Mesh *mesh, const bool
     t->position = mesh->position;
     t->nvertices = mesh->nvertices;
     Wrong w = cross_all(t, body);
-    find_inside(t, body, clear, &w);
+    find_inside(t, body, clear);
+    count_inside(t, body, &w);
     return w;
 }
 
 Wrong tester_again(Tester *t, const BodyFrame *body, const int *vertex, const Vec3 *to, int n, const bool *clear,
                    Wrong w) {
     move(t, body, vertex, to, n, &w);
-    find_inside(t, body, clear, &w);
+    find_inside_again(t, body, vertex, n, clear);
+    count_inside(t, body, &w);
     return w;
 }
