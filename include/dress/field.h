@@ -90,7 +90,10 @@ static inline Dents field_dents(const Field *f, int place) {
     return (Dents){{f->dent[0].at[place], f->dent[1].at[place], f->dent[2].at[place]}};
 }
 static inline Vec3 field_dent(const Field *f, int place) { return dents_sum(field_dents(f, place)); }
-static inline Vec3 field_alone(const Field *f, int place) { return vec_add(f->offset.at[place], field_dent(f, place)); }
+static inline Vec3 field_alone(const Field *f, int place) {
+    Vec3 dent = f->dent[0].is_listed[place] ? field_dent(f, place) : vec(0, 0, 0); /* most places have none */
+    return f->offset.is_listed[place] ? vec_add(f->offset.at[place], dent) : dent;
+}
 
 /* The outward unit normal of the displaced patches at a place, by their derivatives. */
 Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place);
