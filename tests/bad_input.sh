@@ -126,6 +126,12 @@ garment 'a degenerate patch' "$place"
 awk 'BEGIN { print "garment x"; for (i = 0; i < 30000; i++) print "ring r" i " pelvis 1 ease 0" }' >x.garment
 garment '30,000 rings' "$place"
 
+sed '/^part pelvis/,/^caps/d' "$root/garments/adult.body" >bare.body
+misfit() { # however many motions there are, it is said once, and nothing is begun
+    must_fail 3 "$KITSUKE" dress good.bvh "$root/motions" -g "$skirt" --body bare.body -o misfit &&
+        [ "$(wc -l <err)" -eq 1 ] && [ ! -e misfit ] && says "ring 'waist' is on 'pelvis', which the body does not have"
+}
+ok 'garment: on a part that the body does not have' misfit
 refused 'body: missing' "cannot open 'nowhere.body'" good.bvh -g "$skirt" --body nowhere.body
 : >x.body; body empty 'x.body'
 printf 'body x\npart tail\n  0 0 0 0.1 0.1 0.1\n' >x.body; body 'an unknown bone' '^x.body:2:6: error: .*tail'

@@ -53,6 +53,13 @@ cells_drawn() { sed -n 's/^<text[^>]*>.* \([0-9]*\) cells<\/text>$/\1/p' "$1" | 
 "$KITSUKE" dress -q "$walk" -g "$trousers" -o time --frames 1:40:3 --format none
 is 'cells open and close in time as when the frames are dressed' "$(cells_drawn time.svg)" \
     "$(joined cells time/paper-walk/stats.csv)"
+awk '/^Frame Time/ { rows = 1; print; next } rows { x = $1; $1 = $3; $3 = -x; $4 += 90 } { print }' "$walk" >turned.bvh
+for view in front left; do
+    draw -o plain_$view.svg --size 400 --frames 30 --view $view
+    "$KITSUKE" draw turned.bvh -g "$skirt" -o turned_$view.svg --size 400 --frames 30 --view $view
+    is "who heads elsewhere is seen from the $view of the figure" "$(wide turned_$view.svg)" "$(wide plain_$view.svg)"
+done
+ok 'which are not alike' test "$(wide plain_front.svg)" != "$(wide plain_left.svg)"
 ok 'the method to the letter has pictures too' draw -o paper.svg --size 60 --frames 8,9 --method paper --show patches
 well_formed() { # tags that open close
     for f in figure6.svg list.svg both.svg paper.svg; do

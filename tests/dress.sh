@@ -167,6 +167,11 @@ is '--force leaves none of the old frames, and what is not ours' "$(list again/p
     "$(printf './%s ' notes.txt sketch.12.obj sketch.obj skirt.0001.drc skirt.0001.obj skirt.0002.drc skirt.0002.obj \
         stats.csv)"
 cp again/paper-walk/stats.csv kept.csv
+cp "$walk" new.bvh
+ok 'one folder that is there and one that is not' must_fail 4 dress "$walk" new.bvh -g "$skirt" -o again --frames 1:2
+is 'are both in the summary' "$(joined status again/summary.csv)" 'failed ok '
+must_fail 2 dress new.bvh -g "$skirt" -o behind --frames 500: >log
+is 'frames that the motion does not have: refused' "$(joined status behind/summary.csv)" 'refused '
 printf 'garbage\n' >gone.bvh
 mkdir -p again/gone && printf 'old\n' >again/gone/stats.csv
 ok '--force with a motion that cannot be read keeps the old files' \
@@ -202,7 +207,9 @@ fi
 } >tight.garment
 ok 'what cannot be solved is counted, not hidden' dress "$walk" -g tight.garment -o tight --frames 1:2 --format none
 is 'in residual_frames' "$(column residual_frames tight/summary.csv)" 2
-ok '--strict makes it exit 1' must_fail 1 dress "$walk" -g tight.garment -o strict --frames 1:2 --strict
+ok '--strict makes it exit 1' must_fail 1 dress "$walk" -g tight.garment -o strict --frames 1:2 --strict \
+    --progress json
+like 'it has not failed all the same' "$(grep finished err)" '"done":1,"failed":0,.*"finished":true'
 like 'and says where' "$(cat err)" "paper-walk.bvh: error: the body shows through 'skirt' in 2 of 2 frames"
 is 'everything is written all the same' "$(count strict '*.obj')" 4
 ok '--strict with a sound garment: exit 0' dress "$walk" -g "$skirt" -o sound --frames 1:2 --strict
@@ -220,6 +227,7 @@ interrupt() { # interrupt SIGNAL: in the middle of a run
     code=0
     wait "$pid" || code=$?
     is "$1: exit 130" "$code" 130
+    is "$1: said once" "$(grep -c interrupted err)" 1
     is "$1: no temporary file is left" "$(count stop '*.tmp')" 0
     torn=$(find stop -name '*.obj' -exec sh -c 'for f; do tail -n 1 "$f" | grep -q "^f " || echo "$f"; done' sh {} +)
     is "$1: every file is whole" "$torn" ''

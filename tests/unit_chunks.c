@@ -55,6 +55,9 @@ static void test_fixed(void) {
     FrameSpan longer = {1, 1440 + 719, 1};
     Chunks one = chunks_plan(&longer, 120, 1440 + 719);
     OK(one.count == 1, "less than half a chunk is no chunk of its own");
+    longer.last++;
+    Chunks two = chunks_plan(&longer, 120, longer.last);
+    OK(two.count == 2, "a half is");
 }
 
 int main(void) {

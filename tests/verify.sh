@@ -88,6 +88,10 @@ rm body.0003.obj body.0002.obj
 ok 'missing on one side and on both' verify 3 --garment 'm.*.obj' --body 'body.*.obj'
 ok 'a range' says 'body\.\*\.obj: error: frames 2 to 3 are missing'
 ok 'and a gap in both is told for both' says 'm\.\*\.obj: error: frame 3 is missing'
+mkdir end
+for n in 1 2 4; do cube end/m.$n.obj 1.5 2; cube end/body.$n.obj 0 1; done
+ok 'a gap before the last frame: exit 3' verify 3 --garment 'end/m.*.obj' --body 'end/body.*.obj'
+ok 'is told' says 'm\.\*\.obj: error: frame 3 is missing'
 rm m.0002.obj m.0004.obj body.0004.obj
 ok 'a row of every fourth frame has no gap' verify 0 --garment 'm.*.obj' --body 'body.*.obj'
 printf 'v 1 2 3\nv 1 2 nonsense\n' >m.0005.obj

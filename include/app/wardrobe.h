@@ -13,7 +13,7 @@ typedef struct {
 } Wardrobe;
 
 /* The body and the garments that the settings name. Two garments of one name are an error, for
-   names become files. Memory from arena. */
+   names become files; so is one that does not fit the body (ERR_INPUT): it would fit no figure. Memory from arena. */
 MUST_CHECK bool wardrobe_read(const Settings *settings, Arena *arena, Wardrobe *out, Error *e);
 
 #endif

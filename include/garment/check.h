@@ -35,12 +35,4 @@ MUST_CHECK bool check_pin(const Garment *g, const Pin *pin, Why *why);
    file, on torso and legs, each below the one before? *ring: the one that is wrong; -1: the panel is. */
 MUST_CHECK bool check_envelope(const Garment *g, const Panel *panel, int *ring, Why *why);
 
-/* Adds the mirror image of everything whose name begins with `from`, named with `to` instead. */
-MUST_CHECK bool garment_mirror(Garment *g, const char *from, const char *to, Why *why);
-
-/* Adds a panel or a raw patch and returns it, NULL where there are too many. Pieces count panels
-   first, so a new panel moves the numbers of the patches in every seam, pin and collide. */
-Panel *garment_add_panel(Garment *g, const char *name);
-RawPatch *garment_add_patch(Garment *g, const char *name);
-
 #endif

@@ -3,6 +3,10 @@
 
 #include <string.h>
 
+#include "garment/fit.h"
+
+enum { COARSE = 8 }; /* facets round a section of a body that nobody sees */
+
 static bool read_garments(const Settings *s, Wardrobe *w, Arena *arena, Error *e) {
     Arena scratch = {0};
     bool good = true;
@@ -29,7 +33,23 @@ static bool read_body(const Settings *s, Wardrobe *w, Error *e) {
     return good;
 }
 
+/* Each garment must fit the body on the reference figure. On another figure it then fits as well, or the motion is
+   to blame. */
+static bool try_on(const Wardrobe *w, Error *e) {
+    Arena scratch = {0};
+    Figure *figure = ARENA_NEW(&scratch, Figure, 1, e);
+    Body *body = ARENA_NEW(&scratch, Body, 1, e);
+    Fit *fit = ARENA_NEW(&scratch, Fit, 1, e);
+    bool good = figure && body && fit;
+    if (good) *figure = figure_reference();
+    good = good && body_fit(&w->body, figure, COARSE, &scratch, body, e);
+    for (int g = 0; good && g < w->ngarments; g++)
+        good = fit_garment(w->garment[g], figure, body, &scratch, fit, e);
+    arena_free(&scratch);
+    return good;
+}
+
 bool wardrobe_read(const Settings *s, Arena *arena, Wardrobe *out, Error *e) {
     *out = (Wardrobe){.settings = s};
-    return read_body(s, out, e) && read_garments(s, out, arena, e);
+    return read_body(s, out, e) && read_garments(s, out, arena, e) && try_on(out, e);
 }

@@ -2,7 +2,7 @@
    copied: the name gets the second prefix, left and right change places among parts and
    stations, x and the tilt change sign. What has no such name (a waist ring that both halves
    use) stays one thing. Also here: adding pieces, whose numbers depend on one another. */
-#include "garment/check.h"
+#include "garment/mirror.h"
 
 #include <stdio.h>
 #include <string.h>

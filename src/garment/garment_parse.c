@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include "garment/check.h"
+#include "garment/mirror.h"
 #include "garment/words.h"
 
 static const char NO_TITLE[] = "not a garment file: it must begin with 'garment NAME'";
