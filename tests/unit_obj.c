@@ -164,6 +164,9 @@ static void test_obj_parse(void) {
     OK(parse(SQUARE "o a\nusemtl x\nf 1 2 3\no b c \nusemtl x\nf 1 3 4\no d\n", &arena, &m, &e) && m.ngroups == 2 &&
            strcmp(m.group[1].name, "b c") == 0 && m.group[1].first == 1,
        "objects are groups where there are none, materials are not");
+    OK(parse(SQUARE "usemtl x\nf 1 2 3\nusemtl y\nf 1 3 4\n", &arena, &m, &e) && m.ngroups == 2 &&
+           strcmp(m.group[1].name, "y") == 0,
+       "but where there are no objects either");
     OK(parse(SQUARE "f 1 2 3\ng a\nf 1 3 4\n", &arena, &m, &e) && m.ngroups == 2 &&
            strcmp(m.group[0].name, "default") == 0,
        "what comes before the first group is the default group");

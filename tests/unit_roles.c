@@ -412,6 +412,15 @@ static void test_role_files(void) {
     OK(strcmp(rig_joint(&r, ROLE_LEFT_THIGH), "Bip01 L Thigh") == 0, "what it does not name is found as before");
     rig_close(&r);
 
+    OK(rig_roles(&r, "tests/data/figure/biped.bvh", folder_put_text("roles", "left_foot = Bip01 L Toe0\n")) &&
+           r.roles.joint[ROLE_LEFT_TOE] < 0 && r.notes.count == 1 && strstr(r.notes.note[0].text, "no longer left_toe"),
+       "a joint that another role had is taken from it, and that is told");
+    rig_close(&r);
+    OK(rig_roles(&r, "tests/data/figure/torso_root.bvh", folder_put_text("roles", "pelvis = Torso\n")) &&
+           strcmp(rig_joint(&r, ROLE_CHEST), "Torso") == 0 && r.notes.count == 0,
+       "what a role has anyway takes nothing away");
+    rig_close(&r);
+
     test_file("", NULL, 0, 0);
     test_file("spine = Bip01 Spine1\n", NULL, 0, 0);
     test_file("head = Bip01 Hed\n", "did you mean 'Bip01 Head'?", 1, 8);

@@ -134,10 +134,16 @@ static bool check_distinct(const Skeleton *s, const Roles *roles, Error *e) {
 }
 
 /* What the file gives away, the search may not keep for another role. */
-static void take_from_file(const bool *given, const Roles *file, Roles *roles) {
-    for (int a = 0; a < ROLE_COUNT; a++)
-        for (int b = 0; b < ROLE_COUNT; b++)
-            if (given[a] && !given[b] && file->joint[a] == roles->joint[b]) roles->joint[b] = -1;
+static void take_from_file(const Skeleton *s, const bool *given, const Roles *file, Notes *notes, Roles *roles) {
+    for (int a = 0; a < ROLE_COUNT; a++) {
+        if (!given[a] || file->joint[a] < 0 || file->joint[a] == roles->joint[a]) continue;
+        for (int b = 0; b < ROLE_COUNT; b++) {
+            if (given[b] || file->joint[a] != roles->joint[b]) continue;
+            notes_add(notes, (Place){0}, "'%s' is %s, as the roles say, and no longer %s",
+                      s->joint[file->joint[a]].name, names[a], names[b]);
+            roles->joint[b] = -1;
+        }
+    }
     for (int a = 0; a < ROLE_COUNT; a++)
         if (given[a]) roles->joint[a] = file->joint[a];
 }
@@ -152,6 +158,6 @@ bool roles_read(const Motion *m, const char *roles_file, Arena *scratch, Notes *
     if (roles_file && !read_file(&m->skeleton, roles_file, scratch, given, &file, e)) return false;
     bool sides_are_told = given[ROLE_LEFT_THIGH] && given[ROLE_RIGHT_THIGH]; /* then the search may doubt in silence */
     human_find(&tree, sides_are_told ? NULL : notes, out);
-    take_from_file(given, &file, out);
+    take_from_file(&m->skeleton, given, &file, notes, out);
     return check_distinct(&m->skeleton, out, e) && check_required(m, out, e);
 }
