@@ -20,6 +20,7 @@ static const double PIN_GIVES = 0.2; /* a pinned level vertex of the finest leve
                                         would, */
 static const double PINNED = 0.25;   /* of each coarser level this share of the next finer one: a waist gives way in
                                         places, not as a whole */
+static const double UNSURE = 0.0001; /* what sweeps have found out of distances is trusted but for this */
 static const double LITTLE = 0.002;  /* once no more than this is taken back, taking back ends */
 static const double NORM_MIN = 0.1;  /* least squared norm of a sample's weights: one that the unknowns hardly move must
                                         not fling them */
@@ -336,6 +337,18 @@ static double sweep_all(Push *p, PushResult *result) {
     return moved;
 }
 
+/* What the sweeps have found out is known of the vertices too, if no other part is near them: then most need not be
+   asked about again when they are settled and tested. */
+static void tell_near(Push *p) {
+    for (int k = 0; k < p->nsamples; k++) {
+        const Near *found = &p->sample[k].near;
+        Near *near = &p->near[p->sample[k].vertex];
+        if (found->parts != near->parts) continue;
+        *near = *found;
+        near->least -= (float)(UNSURE * p->field.scale);
+    }
+}
+
 void push_start(Push *p, const BodyFrame *body, const Patch *root, const Leaves *leaves, const Sheet *sheet) {
     p->body = body;
     p->sheet = sheet;
@@ -366,6 +379,7 @@ void push_solve(Push *p, PushResult *result) {
         find_samples(p);
         moved = sweep_all(p, result); /* if less than its reach, no vertex that was far away can have come near */
     }
+    tell_near(p);
     if (moved > 0) find_points(p);
 }
 
