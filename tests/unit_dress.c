@@ -283,6 +283,35 @@ static void folds_are_mitres(void) {
     arena_free(&s.arena);
 }
 
+/* The most by which an edge of the sheet is longer in the global shape of a pose than in the bind pose. */
+static double most_stretched(Specimen *c, const Pose *pose, Vec3 *rest) {
+    double most = 0;
+    follow_pose(&c->follower, pose, c->root);
+    for (int k = 0; k < c->sheet.nedges; k++) {
+        int a = c->sheet.place[c->sheet.edge[k].v[0]], b = c->sheet.place[c->sheet.edge[k].v[1]];
+        double now = vec_dist(lattice_point(&c->lattice, c->root, a), lattice_point(&c->lattice, c->root, b));
+        most = fmax(most, now / vec_dist(rest[a], rest[b]));
+    }
+    return most;
+}
+
+/* The left arm from where it hangs until it points straight up. */
+static void raised_arms_stretch_little(void) {
+    Specimen c;
+    specimen_open(&c, "tshirt", DETAIL, DEPTH);
+    Scene *s = &c.scene;
+    Vec3 *rest = ARENA_NEW(&s->arena, Vec3, c.lattice.nplaces, &s->error);
+    need(s, rest != NULL);
+    for (int place = 0; place < c.lattice.nplaces; place++) rest[place] = lattice_point(&c.lattice, c.root, place);
+    double most = 0;
+    for (int degrees = -135; degrees <= 45; degrees += 15) {
+        Pose pose = scene_reaching(s, degrees);
+        most = fmax(most, most_stretched(&c, &pose, rest));
+    }
+    OK(most > 1.5 && most < 2.5, "below a raised arm cloth is spanned, to %.2f times its length", most);
+    arena_free(&s->arena);
+}
+
 int main(void) {
     static const int openings[NSHIPPED] = {2, 2, 3, 4};
     for (int k = 0; k < NSHIPPED; k++) {
@@ -298,6 +327,7 @@ int main(void) {
         arena_free(&c.scene.arena);
     }
     folds_are_mitres();
+    raised_arms_stretch_little();
     rule_is_kept("paper-skirt");
     rule_is_kept("trousers");
     return tap_done();

@@ -54,6 +54,30 @@ bool follow_reserve(Follower *f, const Fit *fit, const Figure *figure, const Bod
     return true;
 }
 
+/* The arm that a binding to trunk and arm names; -1 for any other. */
+static int arm_of(const Binding *b) {
+    int arm = -1;
+    for (int i = 0; i < b->n; i++)
+        if (b->bone[i] == ROLE_LEFT_UPPER_ARM || b->bone[i] == ROLE_RIGHT_UPPER_ARM) arm = (int)b->bone[i];
+        else if (role_limb(b->bone[i]) != 0) return -1;
+    return arm;
+}
+
+/* Below a raised arm nothing holds cloth out as a kneecap does. There it does not keep its distance from the joint, as
+   a blend does, but is spanned straight from the trunk to the arm; only the shoulder itself it goes round. at: where
+   the blend leaves it. */
+static Vec3 spanned(const Follower *f, const Pose *pose, const Binding *b, Vec3 rest, Vec3 at) {
+    int arm = arm_of(b);
+    if (arm < 0 || f->body->of_role[arm] < 0) return at;
+    Vec3 straight = {0, 0, 0}, joint = rigid_apply(pose->bone[arm], f->figure->start[arm]);
+    for (int i = 0; i < b->n; i++)
+        straight = vec_mad(straight, rigid_apply(pose->bone[b->bone[i]], rest), b->weight[i]);
+    Section shoulder = body_section_at(&f->body->part[f->body->of_role[arm]], 0);
+    double radius = fmax(shoulder.side, fmax(shoulder.front, shoulder.back)), away = vec_dist(at, joint);
+    double left = fmax(vec_dist(straight, joint), radius);
+    return left < away ? vec_lerp(joint, at, left / away) : at;
+}
+
 /* The inner control point at an end of a half arc that its middle station shapes (see FitCurve). node: where that
    end is. The handle keeps at least LEAST of its rest length, or a leg that is bent far would turn it over. */
 static Vec3 shaped_handle(const Blender *b, const FitCurve *curve, int end, Vec3 node) {
@@ -85,7 +109,8 @@ static void curves_by_bones(Follower *f, const Pose *pose) {
             const FitNode *node = &f->fit->node[curve->node[end]];
             Vec3 rest = curve->rest[3 * end], handle = vec_sub(curve->rest[1 + end], rest);
             Rigid g = blend_at(&b, &node->binding, rest);
-            Vec3 at = f->curve[c][3 * end] = crease_mitre(f->figure, pose, &node->binding, rigid_apply(g, rest));
+            Vec3 at = spanned(f, pose, &node->binding, rest, rigid_apply(g, rest));
+            at = f->curve[c][3 * end] = crease_mitre(f->figure, pose, &node->binding, at);
             f->curve[c][1 + end] =
                 curve->middle.n ? shaped_handle(&b, curve, end, at) : vec_add(at, mat_apply(g.r, handle));
         }
