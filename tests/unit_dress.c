@@ -259,6 +259,29 @@ static void pairs_are_counted(Scene *s, const char *name) {
        "of which %lld are looked at", stats.pairs_tested);
 }
 
+/* Between hips that are so wide the skirt's own size at the knees would not hold both. */
+static void skirts_hold_wide_hips(void) {
+    enum { KNEE = 2 };
+    Scene s;
+    Fit fit;
+    scene_open(&s, "skirt");
+    for (int r = ROLE_LEFT_THIGH; r < ROLE_COUNT; r++) {
+        double out = r < ROLE_RIGHT_THIGH ? 0.15 : -0.15;
+        s.figure.start[r].x += out;
+        s.figure.end[r].x += out;
+    }
+    need(&s, body_fit(body_default(), &s.figure, 16, &s.arena, &s.body, &s.error));
+    need(&s, fit_garment(s.garment, &s.figure, &s.body, &s.arena, &fit, &s.error));
+    const Ring *knee = &s.garment->ring[KNEE];
+    const BodyPart *part = &s.body.part[s.body.of_role[knee->part]];
+    Section section = body_section(part, knee->at);
+    Vec3 centre = rigid_apply(part->frame, vec(section.x, knee->at * part->length, section.z));
+    double most = centre.x + section.side;
+    OK(most > knee->side && fit.ring[KNEE].side > most + 0.01,
+       "a skirt goes round both legs of wide hips (%.3f, %.3f m)", fit.ring[KNEE].side, most);
+    arena_free(&s.arena);
+}
+
 /* The hem before a thigh that is raised by a right angle, bound half to it and half to the pelvis, lies as far before
    the one as before the other: along the line between them at root two times its distance. */
 static void folds_are_mitres(void) {
@@ -328,6 +351,7 @@ int main(void) {
     }
     folds_are_mitres();
     raised_arms_stretch_little();
+    skirts_hold_wide_hips();
     rule_is_kept("paper-skirt");
     rule_is_kept("trousers");
     return tap_done();

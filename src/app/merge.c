@@ -2,11 +2,11 @@
    order of the list, and the joined summary is, byte for byte, the one of a single run. */
 #include "app/summary.h"
 
-#include <dirent.h>
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+
+#include "files/listing.h"
 
 enum { SUMMARY_MAX = 1 << 30 };
 
@@ -77,15 +77,16 @@ static bool read_summary(Merge *m, const char *path, Summary *s) {
                              s->count, s->shard.k, s->shard.n, s->total);
 }
 
-static bool add(Merge *m, const char *folder, const char *name) {
+static bool add(Merge *m, const char *path) {
     Summary *item = ARENA_GROW(m->arena, Summary, m->item, m->count, &m->capacity, m->e);
     if (!item) return false;
     m->item = item;
-    size_t n = strlen(folder) + strlen(name) + 2;
-    char *path = ARENA_NEW(m->arena, char, n, m->e);
-    if (!path) return false;
-    snprintf(path, n, "%s%s%s", folder, *name ? "/" : "", name);
     return read_summary(m, path, &m->item[m->count++]);
+}
+
+static bool add_inside(Merge *m, const char *folder, const char *name) {
+    const char *path = listing_path(folder, name, m->arena, m->e);
+    return path && add(m, path);
 }
 
 static bool is_shard_name(const char *name) {
@@ -104,16 +105,14 @@ static int by_shard(const void *a, const void *b) {
 /* The shards in a folder, or its summary.csv if there are none. A file is taken as it is. */
 static bool add_folder(Merge *m, const char *path) {
     struct stat info;
-    if (stat(path, &info) == 0 && S_ISREG(info.st_mode)) return add(m, path, "");
-    DIR *folder = opendir(path);
-    if (!folder) return error_set(m->e, ERR_INPUT, "cannot open the folder '%s': %s", path, strerror(errno));
+    if (stat(path, &info) == 0 && S_ISREG(info.st_mode)) return add(m, path);
+    Listing names;
     int before = m->count;
-    bool good = true;
-    for (struct dirent *entry; good && (entry = readdir(folder));)
-        good = !is_shard_name(entry->d_name) || add(m, path, entry->d_name);
-    closedir(folder);
-    if (good && m->count > before) qsort(m->item + before, (size_t)(m->count - before), sizeof *m->item, by_shard);
-    return good && (m->count > before || add(m, path, "summary.csv"));
+    if (!listing_read(path, m->arena, &names, m->e)) return false;
+    for (int i = 0; i < names.count; i++)
+        if (is_shard_name(names.name[i]) && !add_inside(m, path, names.name[i])) return false;
+    if (m->count > before) qsort(m->item + before, (size_t)(m->count - before), sizeof *m->item, by_shard);
+    return m->count > before || add_inside(m, path, "summary.csv");
 }
 
 /* All shards that belong to *first, in their order; NULL with an error. */
