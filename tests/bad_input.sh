@@ -150,5 +150,7 @@ inspects() { must_fail "$1" "$KITSUKE" inspect "$2" && grep -Eq "$3" err; }
 ok 'inspect: missing' inspects 3 nowhere "cannot open 'nowhere'"
 ok 'inspect: a folder' inspects 3 empty 'directory'
 printf 'garment x\nring a tail 1 ease 0\n' >x.garment
+grep -v '^collide' "$skirt" >bare.garment
+like 'inspect: a garment that keeps out of nothing' "$("$KITSUKE" inspect bare.garment)" '^  collides    nothing$'
 ok 'inspect: a garment with a mistake' inspects 3 x.garment '^x.garment:2:8: error: '
 done_testing

@@ -68,6 +68,9 @@ else
     skip 'every line of it is JSON' 'no python3'
 fi
 
+"$KITSUKE" dress in -g "$skirt" -o line --progress always --format none 2>err
+like 'the line tells how many have failed' "$(tr '\r' '\n' <err)" '[0-9]/8 motions, 1 failed, '
+
 # Bounds
 refuses() { # refuses PATTERN ARGUMENT...
     pattern=$1

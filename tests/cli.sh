@@ -32,6 +32,8 @@ for command in $commands; do
     like "--help lists $command" "$("$KITSUKE" --help)" "^  $command "
 done
 
+like 'help tells the range of a number, its step and its default' "$(tr -s ' \n' ' ' <help.dress)" \
+    'round each section of the body \(8\.\.64, a multiple of 4; default: 16\)'
 in_readme() {
     for command in $commands; do
         for name in $(sed -n 's/^  \(-.,\|   \) --\([a-z-]*\).*/\2/p' help.$command); do

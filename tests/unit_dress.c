@@ -282,6 +282,19 @@ static void skirts_hold_wide_hips(void) {
     arena_free(&s.arena);
 }
 
+static void rows_that_no_collide_names_keep_out_as_well(void) {
+    Scene s;
+    Fit fit;
+    scene_open(&s, "skirt");
+    s.garment->ncollides = 1;
+    s.garment->collide[0] = (Collide){0, 1, -1, 1u << ROLE_PELVIS | 1u << ROLE_LEFT_THIGH}; /* waist..hip */
+    need(&s, fit_garment(s.garment, &s.figure, &s.body, &s.arena, &fit, &s.error));
+    int others = 0;
+    for (int p = 0; p < fit.npatches; p++) others += fit.patch[p].collide != s.garment->collide[0].parts;
+    OK(others == 0 && fit.npatches == 6, "patches that no 'collide' names keep out of all that it names for others");
+    arena_free(&s.arena);
+}
+
 /* The hem before a thigh that is raised by a right angle, bound half to it and half to the pelvis, lies as far before
    the one as before the other: along the line between them at root two times its distance. */
 static void folds_are_mitres(void) {
@@ -352,6 +365,7 @@ int main(void) {
     folds_are_mitres();
     raised_arms_stretch_little();
     skirts_hold_wide_hips();
+    rows_that_no_collide_names_keep_out_as_well();
     rule_is_kept("paper-skirt");
     rule_is_kept("trousers");
     return tap_done();

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "files/csv.h"
 #include "files/stats.h"
 #include "folder.h"
 #include "tap.h"
@@ -130,6 +131,22 @@ static void test_summary(void) {
        "rows of summary.csv");
 }
 
+static void test_cells(void) {
+    static const struct { const char *text, *cell; } cells[] = {
+        {"walk", "walk"}, {"", ""}, {"two words", "two words"}, {" first", "\" first\""}, {"last ", "\"last \""},
+        {"a,b", "\"a,b\""}, {"say \"so\"", "\"say \"\"so\"\"\""}, {"#1", "\"#1\""}, {"no 1#", "no 1#"},
+        {"a\nb\177", "a?b?"}, {NULL, ""},
+    };
+    for (size_t i = 0; i < sizeof cells / sizeof *cells; i++) {
+        char got[64] = "";
+        FILE *out = fmemopen(got, sizeof got, "w");
+        if (!out) exit(1);
+        csv_text(cells[i].text, out);
+        fclose(out);
+        OK(strcmp(got, cells[i].cell) == 0, "the cell %s", cells[i].cell);
+    }
+}
+
 static void test_units(void) {
     Error e = {0};
     StatsFile f;
@@ -194,6 +211,7 @@ int main(int argc, char **argv) {
     if (!folder_make()) return 1;
     test_frames();
     test_summary();
+    test_cells();
     test_units();
     test_full_disk();
     test_readme();

@@ -44,6 +44,11 @@ cube b.0001.obj 0.25 0.75
 ok 'inside without a crossing: exit 1' verify 1 --garment 'b.*.obj' --body 'a.*.obj'
 is 'no pair' "$(told pairs)" '0 '
 is 'all corners inside' "$(told inside)" '8 '
+cube a.0002.obj 0 1
+printf 'nonsense\n' >b.0002.obj
+ok 'a finding in one frame and another that cannot be read: exit 3' verify 3 --garment 'b.*.obj' --body 'a.*.obj'
+is 'both are told' "$(told inside)$(grep -c b.0002.obj err)" '8 1'
+rm a.0002.obj b.0002.obj
 ok 'other parts only' verify 2 --garment 'b.*.obj' --body 'a.*.obj' --parts box,lid
 ok 'a part that is not there, with those that are' says "has no group 'lid'; it has box"
 ok '--parts' verify 1 --garment 'b.*.obj' --body 'a.*.obj' --parts box

@@ -202,7 +202,7 @@ static void print_garment(const char *path, const Garment *g, const DresserInfo 
     printf("  rings       %d\n  seams       %d\n  openings    %d\n  collides   ", g->nrings, g->nseams, info->openings);
     for (int r = 0; r < ROLE_COUNT; r++)
         if (info->own_parts >> r & 1) printf(" %s", role_name((Role)r));
-    printf("\n");
+    printf("%s\n", info->own_parts ? "" : " nothing");
 }
 
 /* Fits the garment to the reference figure, which proves its seams and openings. */
