@@ -110,7 +110,8 @@ motions: all					## make the shipped motions again, in motions/
 	$(STRIDE) --preset turn --steps 8 -o motions/turn.bvh
 
 JOBS ?= $(shell getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
-test: $(OUT)/$(NAME) $(UNIT) build/deps-test	## unit programs and shell tests, through prove
+# The bench is built too, so that it keeps up with what it measures.
+test: $(OUT)/$(NAME) $(UNIT) $(OUT)/bench/bench build/deps-test	## unit programs and shell tests, through prove
 	@KITSUKE='$(CURDIR)/$(OUT)/$(NAME)' KITSUKE_BUILD=$(BUILD) ASAN_OPTIONS=exitcode=99 \
 	UBSAN_OPTIONS=exitcode=99:print_stacktrace=1 prove -j$(JOBS) -e '' $(sort $(UNIT) $(SCRIPT))
 

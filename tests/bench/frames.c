@@ -36,7 +36,8 @@ static void walk_open(Walk *w, const char *const *garments, int count, DressOpti
     static Notes notes;
     Error e = {0};
     Take *take;
-    *w = (Walk){.settings = {.garments = {count, (const char **)garments}, .body_detail = body_detail}};
+    *w = (Walk){.settings = {.body_detail = body_detail}};
+    w->settings.garments = (TextList){.count = count, .item = (const char **)garments};
     bench_need(wardrobe_read(&w->settings, &w->arena, &w->wardrobe, &e) &&
                wearer_open(&w->wardrobe, "motions/paper-walk.bvh", 1, &w->arena, &notes, &w->wearer, &e) &&
                wearer_put_on(&w->wearer, &w->wardrobe, &options, &w->arena, &w->dresser, &e) &&
