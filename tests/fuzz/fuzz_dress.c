@@ -63,7 +63,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     Arena arena = {0};
     Error e = {0};
     Wardrobe w;
-    Settings s = {.garments = {1, garments}, .output = folder, .frames = {1, 2, 1}, .detail = 2, .body_detail = 8};
+    TextList one = {.count = 1, .item = garments};
+    Settings s = {.garments = one, .output = folder, .frames = {1, 2, 1}, .detail = 2, .body_detail = 8};
     if (!garment.path[0]) {
         if (!mkdtemp(folder)) abort();
         atexit(remove_folder);
