@@ -153,6 +153,11 @@ is 'nor one that a file of ours may have, on any disk' \
 is 'every motion has a folder of its own' "$(find cage -name stats.csv | wc -l | tr -d ' ')" \
     "$(grep -c ',ok,' cage/inner/out/summary.csv)"
 like 'as many as there were' "$(grep -c ',ok,' cage/inner/out/summary.csv)" '^1[5-9]$'
+hostile_message() {
+    must_fail 3 dress "$(printf 'a\nb.bvh')" -o cage/inner/none --format none &&
+        says '^kitsuke: cannot open .a[?]b[.]bvh'
+}
+ok 'a message shows no control byte of a name' hostile_message
 ok 'they can be resumed' eval 'must_fail 3 dress --files-from all -o cage/inner/out --format none --resume --strict'
 is 'a summary has a line for each row' "$(awk -F, 'NR > 3 && !/,(ok|refused|failed),/' cage/inner/out/summary.csv)" ''
 done_testing

@@ -172,10 +172,18 @@ is 'no progress on a pipe' "$(tr -d -c '\r' <err | wc -c | tr -d ' ')" 0
 if [ -w /dev/full ]; then
     full() { must_fail 4 sh -c '"$KITSUKE" inspect --joints "$1" >/dev/full' sh "$walk" && says 'standard output'; }
     ok 'standard output on a full disk: exit 4' full
+    full_output() { must_fail 4 sh -c '"$KITSUKE" walk -o - >/dev/full' && says 'cannot write to standard output: No'; }
+    ok 'also where it is what --output names' full_output
     ok 'what cannot be written is named' refuses 4 "cannot write '/dev/full': No space left" walk -o /dev/full
 else
     skip 'standard output on a full disk' 'no /dev/full'
 fi
 gone() { "$KITSUKE" inspect --joints "$walk" 2>err | head -n 1 >out && [ ! -s err ]; }
 ok 'a reader that goes away ends it quietly' gone
+gone_verify() { # nobody reads before 'true' has ended
+    "$KITSUKE" dress "$walk" -g "$skirt" --frames 1:2 -o gone -q || return 1
+    (sleep 0.2; exec "$KITSUKE" verify gone 2>err) | true
+    [ ! -s err ]
+}
+ok 'that of verify too' gone_verify
 done_testing

@@ -5,9 +5,12 @@
 #include <stdbool.h>
 
 /* From now on the first SIGINT or SIGTERM only sets a flag, a second one ends the program at
-   once; a closed pipe, or a file that grows beyond its limit, is an error of the write and no
-   longer kills. */
+   once. */
 void stop_listen(void);
+
+/* From now on a closed pipe, or a file that grows beyond its limit, is an error of the write and
+   no longer kills: for commands that leave files behind, which must be whole. */
+void stop_outlive_readers(void);
 
 /* Has somebody asked to stop? */
 bool stop_requested(void);

@@ -99,8 +99,9 @@ static void speak(Batch *b) {
 
 /* Adds the motion's path to an error that does not name it: lower floors do not know it. */
 static void name_motion(Error *e, const char *path) {
-    if (strcmp(path, "-") == 0) path = "<stdin>";
-    if (e->kind && !e->file[0] && !strstr(e->text, path)) snprintf(e->file, sizeof e->file, "%s", path);
+    char shown[sizeof e->file];
+    error_clean(shown, sizeof shown, strcmp(path, "-") == 0 ? "<stdin>" : path);
+    if (e->kind && !e->file[0] && !strstr(e->text, shown)) memcpy(e->file, shown, sizeof shown);
 }
 
 /* The motion is over, one way or another: its messages, its memory, its place. */

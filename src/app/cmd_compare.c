@@ -84,6 +84,7 @@ ErrorKind cmd_compare(const Settings *s, Error *e) {
     int motions = 0;
     Wardrobe w;
     ErrorKind code = ERR_USAGE;
+    stop_outlive_readers();
     stop_listen();
     if (check_needed(s, e) && wardrobe_read(s, &arena, &w, e) &&
         inputs_collect(&s->inputs, &arena, &input, &motions, e)) {

@@ -51,6 +51,7 @@ ErrorKind cmd_dress(const Settings *s, Error *e) {
         code = summary_merge(s, &arena, e) ? ERR_NONE : e->kind;
     } else {
         good = good && wardrobe_read(s, &arena, &w, e) && collect(s, &arena, &input, &total, e);
+        stop_outlive_readers();
         stop_listen(); /* not before all that may wait for standard input is read */
         code = good ? batch_run(&w, input, take_shard(s->shard, input, total), total, &arena, e) : e->kind;
     }

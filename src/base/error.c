@@ -92,12 +92,14 @@ void notes_add(Notes *notes, Place place, const char *fmt, ...) {
 }
 
 void notes_print(const Notes *notes, const char *name, FILE *out) {
+    char shown[sizeof notes->note[0].file];
+    error_clean(shown, sizeof shown, name);
     for (int i = 0; i < notes->count && i < NOTES_MAX; i++) {
         const Error *n = &notes->note[i];
         if (n->file[0]) print_place(n, out);
-        else fprintf(out, "%s: ", name);
+        else fprintf(out, "%s: ", shown);
         fprintf(out, "warning: %s\n", n->text);
         print_source(n, out);
     }
-    if (notes->count > NOTES_MAX) fprintf(out, "%s: warning: %d more warnings\n", name, notes->count - NOTES_MAX);
+    if (notes->count > NOTES_MAX) fprintf(out, "%s: warning: %d more warnings\n", shown, notes->count - NOTES_MAX);
 }

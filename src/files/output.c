@@ -20,7 +20,11 @@ static bool cannot(const char *what, const char *path, int code, Error *e) {
                      n > SHOWN ? path + n - SHOWN : path, strerror(code));
 }
 
-static bool cannot_write(const char *path, int code, Error *e) { return cannot("write", path, code, e); }
+static bool cannot_write(const char *path, int code, Error *e) {
+    if (strcmp(path, "-") == 0)
+        return error_set(e, ERR_OUTPUT, "cannot write to standard output: %s", strerror(code));
+    return cannot("write", path, code, e);
+}
 
 /* Something that is there and no regular file must not be replaced by one. */
 static bool is_written_in_place(const char *path) {
