@@ -31,11 +31,16 @@ static void test_names(void) {
         OK(name_hint(not_hands[i]).weight[PART_HAND] < 0.1, "'%s' is no hand", not_hands[i]);
     static const struct { const char *name; int side; } sides[] = {
         {"Muslo_Izq", 1}, {"PiernaDerecha", -1}, {"cuisse.gauche", 1}, {"BraccioDx", -1}, {"Oberarm_links", 1},
+        {"j_hip_le", 1}, {"j_hip_ri", -1},
         {"\xec\x98\xa4\xeb\xa5\xb8\xec\xaa\xbd\xec\x86\x90", -1}, {"\xd0\x9b\xd0\xb5\xd0\xb2\xd0\xb0\xd1\x8f", 1},
         {"Under", 0}, {"Izquier", 0},
     };
     for (size_t i = 0; i < sizeof sides / sizeof sides[0]; i++)
         OK(name_hint(sides[i].name).side == sides[i].side, "side of '%s'", sides[i].name);
+    NameHint hip = name_hint("hip_a"), sided = name_hint_sided("hip_a");
+    OK(hip.weight[PART_PELVIS] > 0.5 && hip.weight[PART_THIGH] == 0, "'hip_a' is the pelvis");
+    OK(sided.weight[PART_THIGH] > 0.5 && sided.weight[PART_PELVIS] == 0 && sided.side == 0,
+       "but one of two is a thigh, of a side that is not told");
     NameHint shoulder = name_hint("LeftShoulder");
     OK(shoulder.weight[PART_CLAVICLE] > 0.5 && shoulder.weight[PART_UPPER_ARM] > 0.5, "'LeftShoulder' may be either");
     OK(name_hint("Wing1_L").stranger && name_hint("CoatTail").stranger && !name_hint("LeftHandEnd").stranger &&

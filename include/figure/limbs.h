@@ -2,8 +2,7 @@
 #ifndef FIGURE_LIMBS_H
 #define FIGURE_LIMBS_H
 
-#include "figure/names.h"
-#include "figure/sample.h"
+#include "figure/tree.h"
 
 typedef enum { LIMB_LEG, LIMB_ARM } LimbKind;
 
@@ -28,24 +27,6 @@ typedef struct {
 
 /* Legs and arms that may belong to one human. */
 typedef struct { const LimbPair *legs, *arms; } Limbs;
-
-/* A skeleton prepared for searching: lengths are means over the sample, file units. */
-typedef struct {
-    const Skeleton *skeleton;
-    const Sample *sample;
-    NameHint *hint;
-    int *child, *sibling;  /* first child, next sibling; -1 = none */
-    double *bone, *reach;  /* distance to the parent; length of the longest chain below */
-} Tree;
-
-MUST_CHECK bool tree_build(const Skeleton *skeleton, const Sample *sample, Arena *arena, Tree *out, Error *e);
-
-/* Is `joint` below `ancestor` or the same? */
-bool tree_below(const Tree *t, int joint, int ancestor);
-
-/* Rigs may put a helper node where a bone's parent is and give it the bone's name. Returns the joint below such nodes
-   that is the bone itself; `joint` where it is no such node. */
-int tree_past_nodes(const Tree *t, int joint, Part part);
 
 /* The best `most` pairs of a kind, best first. Returns their number. */
 int limbs_find(const Tree *t, LimbKind kind, int most, LimbPair *out);

@@ -21,4 +21,7 @@ typedef struct {
    FK_upArm_jnt, lfemur, LEFTLEG, ... An unknown name gives zeros. */
 NameHint name_hint(const char *name);
 
+/* The same for a joint that is known to belong to one side, though its name may not tell to which. */
+NameHint name_hint_sided(const char *name);
+
 #endif

@@ -4,9 +4,6 @@
    decides the rest, so a skeleton with meaningless names is found by the same search. */
 #include "figure/limbs.h"
 
-#include <ctype.h>
-#include <string.h>
-
 enum {
     DEPTH_MAX = 12,    /* joints of a chain that are looked at: arms of split bones reach the wrist at the eighth */
     START_MAX = 5,     /* a limb begins at most so many joints below the hub */
@@ -33,66 +30,6 @@ static const double SHARE[2] = {0.75, 0.58};
 static const double BOTH_LEAST = 0.1, SHORTER_LEAST = 0.2;
 /* A joint this near to the one before it (against chain or limb) coincides with it. */
 static const double NO_WAY = 0.02;
-
-static bool is_letter(char c) { return isalnum((unsigned char)c) || (unsigned char)c >= 128; }
-
-/* The length of what all names below a ROOT begin with, up to its last sign: mixamorig: or Bip01_. It is the name of
-   the character and tells nothing of bones, though it may be made of words that do. */
-static size_t shared_start(const Skeleton *s, int root) {
-    const char *first = NULL;
-    size_t length = 0;
-    for (int j = root + 1; j < s->njoints && s->joint[j].parent >= 0; j++) {
-        const char *name = s->joint[j].name;
-        size_t same = 0;
-        if (s->joint[j].is_end) continue;
-        if (!first) first = name, length = strlen(name);
-        while (same < length && name[same] == first[same]) same++;
-        length = same;
-    }
-    while (length > 0 && is_letter(first[length - 1])) length--;
-    return length;
-}
-
-static void read_names(const Skeleton *s, NameHint *hint) {
-    size_t start = 0;
-    for (int j = 0; j < s->njoints; j++) {
-        if (s->joint[j].parent < 0) start = shared_start(s, j);
-        if (!s->joint[j].is_end) hint[j] = name_hint(s->joint[j].name + (s->joint[j].parent < 0 ? 0 : start));
-    }
-}
-
-bool tree_build(const Skeleton *skeleton, const Sample *sample, Arena *arena, Tree *out, Error *e) {
-    int n = skeleton->njoints;
-    Tree t = {skeleton, sample, ARENA_NEW(arena, NameHint, n, e), ARENA_NEW(arena, int, n, e),
-              ARENA_NEW(arena, int, n, e), ARENA_NEW(arena, double, n, e), ARENA_NEW(arena, double, n, e)};
-    if (!t.hint || !t.child || !t.sibling || !t.bone || !t.reach) return false;
-    read_names(skeleton, t.hint);
-    for (int j = 0; j < n; j++) t.child[j] = t.sibling[j] = -1;
-    for (int j = n - 1; j >= 0; j--) {
-        int parent = skeleton->joint[j].parent;
-        if (parent < 0) continue;
-        t.sibling[j] = t.child[parent];
-        t.child[parent] = j;
-        t.bone[j] = sample_distance(sample, parent, j);
-        t.reach[parent] = fmax(t.reach[parent], t.bone[j] + t.reach[j]);
-    }
-    *out = t;
-    return true;
-}
-
-bool tree_below(const Tree *t, int joint, int ancestor) { return skeleton_below(t->skeleton, joint, ancestor); }
-
-int tree_past_nodes(const Tree *t, int joint, Part part) {
-    static const double AT_PARENT = 0.02; /* distance to the parent against the chain below */
-    for (int next = joint; next >= 0;) {
-        joint = next;
-        next = -1;
-        if (t->bone[joint] > AT_PARENT * t->reach[joint]) break;
-        for (int c = t->child[joint]; c >= 0; c = t->sibling[c])
-            if (t->hint[c].weight[part] > 0 && t->hint[c].weight[part] >= t->hint[joint].weight[part]) next = c;
-    }
-    return joint;
-}
 
 /* A chain of joints from a child of the hub downwards. */
 typedef struct {

@@ -31,10 +31,10 @@ static const char *const strangers[] = {
 /* Left and right: in Latin letters as words of a name, in others wherever they stand. */
 typedef struct { const char *word; int side; } Side;
 static const Side sides[] = {
-    {"l", 1}, {"left", 1}, {"lt", 1}, {"lft", 1}, {"links", 1}, {"gauche", 1}, {"izq", 1}, {"izquierda", 1},
+    {"l", 1}, {"left", 1}, {"le", 1}, {"lt", 1}, {"lft", 1}, {"links", 1}, {"gauche", 1}, {"izq", 1}, {"izquierda", 1},
     {"izquierdo", 1}, {"sx", 1}, {"sinistra", 1}, {"sinistro", 1},
-    {"r", -1}, {"right", -1}, {"rt", -1}, {"rgt", -1}, {"rechts", -1}, {"droite", -1}, {"droit", -1}, {"der", -1},
-    {"derecha", -1}, {"derecho", -1}, {"dx", -1}, {"destra", -1}, {"destro", -1},
+    {"r", -1}, {"right", -1}, {"ri", -1}, {"rt", -1}, {"rgt", -1}, {"rechts", -1}, {"droite", -1}, {"droit", -1},
+    {"der", -1}, {"derecha", -1}, {"derecho", -1}, {"dx", -1}, {"destra", -1}, {"destro", -1},
 };
 static const Side foreign_sides[] = {
     {"\xe5\xb7\xa6", 1}, {"\xe5\x8f\xb3", -1},                                             /* Japanese, Chinese */
@@ -251,12 +251,13 @@ static bool says(const Words *w, int i, int j, const Phrase *ph) {
     return (is(a, ph->first) && is(b, ph->second)) || (is(b, ph->first) && is(a, ph->second));
 }
 
-/* Counts the votes of all phrases that words i and j make up. Returns whether there is one. */
-static bool vote(const Words *w, int i, int j, double factor, NameHint *hint) {
+/* Counts the votes of all phrases that words i and j make up; not those of the class `other_class` (see Phrase).
+   Returns whether there is one. */
+static bool vote(const Words *w, int i, int j, char other_class, double factor, NameHint *hint) {
     bool any = false;
     for (int p = 0; p < NPHRASES; p++) {
         const Phrase *ph = &phrases[p];
-        if ((ph->where == 's' && hint->side == 0) || (ph->where == 'c' && hint->side != 0)) continue;
+        if (ph->where == other_class) continue;
         if (!says(w, i, j, ph)) continue;
         any = true;
         if (ph->weight * factor > hint->weight[ph->part]) hint->weight[ph->part] = ph->weight * factor;
@@ -264,18 +265,23 @@ static bool vote(const Words *w, int i, int j, double factor, NameHint *hint) {
     return any;
 }
 
-NameHint name_hint(const char *name) {
+static NameHint read_name(const char *name, bool sided) {
     Words w = split(name);
     NameHint hint = {.side = side_of(&w)};
+    char other_class = sided || hint.side != 0 ? 'c' : 's';
     double factor = doubt(&w);
     bool used[WORDS_MAX] = {false};
     for (int i = 0; i < w.count; i++) {
         int j = partner(&w, i);
-        if (j < w.count && !used[i] && vote(&w, i, j, factor, &hint)) used[i] = used[j] = true;
+        if (j < w.count && !used[i] && vote(&w, i, j, other_class, factor, &hint)) used[i] = used[j] = true;
     }
     for (int i = 0; i < w.count; i++)
-        if (!used[i]) vote(&w, i, i, factor, &hint);
+        if (!used[i]) vote(&w, i, i, other_class, factor, &hint);
     hint.stranger = factor < 0.1;
     for (int part = 0; part < PART_COUNT; part++) hint.stranger = hint.stranger && hint.weight[part] == 0;
     return hint;
 }
+
+NameHint name_hint(const char *name) { return read_name(name, false); }
+
+NameHint name_hint_sided(const char *name) { return read_name(name, true); }
