@@ -348,6 +348,33 @@ static void raised_arms_stretch_little(void) {
     arena_free(&s->arena);
 }
 
+/* Hips bent until the thighs are at the belly, both alike or one less than the other. */
+static void cloth_rides_up_round_the_seat(void) {
+    Specimen c;
+    specimen_open(&c, "skirt", DETAIL, DEPTH);
+    Scene *s = &c.scene;
+    Vec3 *rest = ARENA_NEW(&s->arena, Vec3, c.lattice.nplaces, &s->error);
+    need(s, rest != NULL);
+    for (int place = 0; place < c.lattice.nplaces; place++) rest[place] = lattice_point(&c.lattice, c.root, place);
+    double most = 0, deepest = 0;
+    for (int left = 0; left <= 120; left += 15)
+        for (int less = 0; less <= 30; less += 30) {
+            Pose pose = figure_rest_pose();
+            scene_leg(s, &pose, true, left, left);
+            scene_leg(s, &pose, false, left - less, left);
+            most = fmax(most, most_stretched(&c, &pose, rest));
+            body_frame_pose(&s->posed, &pose);
+            for (int place = 0; place < c.lattice.nplaces; place++) {
+                Vec3 at = lattice_point(&c.lattice, c.root, place);
+                int pelvis = s->body.of_role[ROLE_PELVIS];
+                deepest = fmax(deepest, -body_frame_distance(&s->posed, pelvis, at, 0, NULL));
+            }
+        }
+    OK(most > 1.5 && most < 2.1, "round the seat of who sits a skirt is spread, to %.2f times its length", most);
+    OK(deepest < 0.015, "and goes no deeper through it than %.0f mm before it is pushed", 1e3 * deepest);
+    arena_free(&s->arena);
+}
+
 int main(void) {
     static const int openings[NSHIPPED] = {2, 2, 3, 4};
     for (int k = 0; k < NSHIPPED; k++) {
@@ -364,6 +391,7 @@ int main(void) {
     }
     folds_are_mitres();
     raised_arms_stretch_little();
+    cloth_rides_up_round_the_seat();
     skirts_hold_wide_hips();
     rows_that_no_collide_names_keep_out_as_well();
     rule_is_kept("paper-skirt");

@@ -23,14 +23,16 @@ typedef struct {
     double hip_height;                 /* of the hip joints in the canonical stance */
     Vec3 root;                         /* between the hip joints */
     Mat3 pelvis;
+    double turn;                       /* radians: by how much the tube turns at the hips */
+    double outside[2];                 /* metres, per x and z on the ring: how far outside the axis of that turn */
     Bend bend[2];                      /* left, right */
 } Envelope;
 
 /* Prepares the rings for a pose. */
 void envelope_pose(Envelope *env, const Fit *fit, const Figure *figure, const Body *body, const Pose *pose);
 
-/* A point of the tube: s metres below the hip joints along the body (negative above), at (x, z) on the ring if that
-   were the unit circle, x to the left, z to the front. World frame, metres. */
+/* A point of the tube: of cloth that is s metres below the hip joints at rest (negative above), at (x, z) on the ring
+   if that were the unit circle, x to the left, z to the front. World frame, metres. */
 Vec3 envelope_point(const Envelope *env, double s, double x, double z);
 
 /* The s of a ring of the fit. */

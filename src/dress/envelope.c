@@ -21,7 +21,10 @@ static const double LEG_ROOM_CM = 2.2; /* room for swinging round each leg in a 
 static const double APART_CM = 3;      /* a ring is so much wider to either side than its legs if they cross */
 static const double SPARE_CM2 = 10;    /* width of the soft corner where the legs take up the last of the cloth */
 static const double LAP_LEAST_CM = 14, LAP_MOST_CM = 26; /* below the hip joints: where the lap of a bent hip begins */
-static const double LAP_CORNER_CM = 2;
+static const double RIDES_UP = 0.7;    /* share of the longer way round the outside of a bent hip over which cloth is
+                                          spread evenly */
+static const double CORNER_CM = 2;     /* width of the soft corners where the lap begins, and beside the outside */
+enum { RIDE_STEPS = 6 };
 /* Ranges of a hip's flexion, radians: over the first the front comes to hang, until the thigh is level; over the
    second it is gathered, as the thigh comes to the belly. Beyond the third a thigh that points up was certainly bent
    forwards. */
@@ -194,10 +197,35 @@ static Vec3 pelvis_point(const Envelope *env, double s, double x, double z) {
     return vec_add(env->root, mat_apply(env->pelvis, p));
 }
 
+/* The x at which x + rise * smoothstep(a, b, x) is y; rise >= 0. Newton's method from the middle of the step, on either
+   side of which the slope only falls, comes nearer from that side alone. */
+static double before_step(double a, double b, double rise, double y) {
+    if (y <= a) return y;
+    if (y >= b + rise) return y - rise;
+    double x = 0.5 * (a + b);
+    for (int k = 0; k < RIDE_STEPS; k++) {
+        double t = clamp((x - a) / (b - a), 0, 1);
+        x -= (x + rise * t * t * (3 - 2 * t) - y) / (1 + rise * 6 * t * (1 - t) / (b - a));
+    }
+    return x;
+}
+
+/* Round the outside of a bent hip the way is longer than the cloth, round the seat of who sits by half its length. If
+   only the two rings next to the hip made up for that, they would be far apart, and the cloth between them would take a
+   short cut through the seat. So cloth rides up there: it is spread over the whole way between the first ring and the
+   last, which stay where they are. Returns the s of the body at which cloth of s lies. */
+static double ridden_up(const Envelope *env, double s, double x, double z) {
+    double outside = soft_positive(x * env->outside[0] + z * env->outside[1], CORNER_CM * env->cm);
+    double top = envelope_place(env, 0), end = envelope_place(env, env->fit->garment->nrings - 1);
+    double longer = RIDES_UP * env->turn * outside, evenly = s + longer * (s - top) / (end - top);
+    return before_step(-ABOVE_CM * env->cm, BELOW_CM * env->cm, longer, evenly);
+}
+
 double envelope_place(const Envelope *env, int ring) { return env->hip_height - env->fit->ring[ring].y; }
 
 Vec3 envelope_point(const Envelope *env, double s, double x, double z) {
     const Bend *of = env->bend;
+    s = ridden_up(env, s, x, z);
     double left = 0.5 + 0.5 * clamp(x, -1, 1), front = clamp(0.5 + 0.5 * z, 0, 1);
     Bend bend = {.hangs = front * lerp(of[1].hangs, of[0].hangs, left),
                  .gathers = lerp(of[1].gathers, of[0].gathers, left),
@@ -206,7 +234,7 @@ Vec3 envelope_point(const Envelope *env, double s, double x, double z) {
     if (bend.hangs <= 0) return turning;
     /* The rings of a bent hip would cross in the groin. So in front the tube hangs straight from the pelvis to where
        the lap begins; behind it keeps the rings, which wrap the seat. */
-    double top = envelope_place(env, 0), beyond = bend.lap + soft_positive(s - bend.lap, LAP_CORNER_CM * env->cm);
+    double top = envelope_place(env, 0), beyond = bend.lap + soft_positive(s - bend.lap, CORNER_CM * env->cm);
     double down = smoothstep(top, bend.lap, s), from = s < top ? s : lerp(s, top, bend.gathers);
     Vec3 linear = vec_lerp(pelvis_point(env, from, x, z), turning_point(env, beyond, x, z), down);
     return vec_lerp(turning, linear, bend.hangs);
@@ -237,6 +265,16 @@ static Bend bend_of(const Envelope *env, Vec3 thigh, Vec3 mean) {
                   .lap = lap_of(env, flexion)};
 }
 
+/* How far the tube turns at the hips, and which side of it is outside. mean: unit direction of the thighs. */
+static void bend_outside(Envelope *env, Vec3 mean) {
+    double down = clamp(vec_dot(mean, env->down), -1, 1);
+    Vec3 inwards = vec_unit_or(vec_mad(mean, env->down, -down), mat_column(env->pelvis, 2));
+    FitRing rest = rest_size(env, 0);
+    env->turn = fmin(acos(down), TURN_LIMIT);
+    env->outside[0] = -rest.side * vec_dot(mat_column(env->pelvis, 0), inwards);
+    env->outside[1] = -0.5 * (rest.front + rest.back) * vec_dot(mat_column(env->pelvis, 2), inwards);
+}
+
 void envelope_pose(Envelope *env, const Fit *fit, const Figure *figure, const Body *body, const Pose *pose) {
     static const Role thigh[2] = {ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH}, shin[2] = {ROLE_LEFT_SHIN, ROLE_RIGHT_SHIN};
     *env = (Envelope){.fit = fit, .body = body, .cm = fit->height / 170, .pelvis = pose->bone[ROLE_PELVIS].r};
@@ -255,5 +293,6 @@ void envelope_pose(Envelope *env, const Fit *fit, const Figure *figure, const Bo
     env->rest_hip = 0.5 * vec_dist(figure->start[ROLE_LEFT_THIGH], figure->start[ROLE_RIGHT_THIGH]);
     env->hip_height = figure->start[ROLE_LEFT_THIGH].y;
     Vec3 mean = vec_unit_or(vec_add(env->thigh[0], env->thigh[1]), env->down);
+    bend_outside(env, mean);
     for (int leg = 0; leg < 2; leg++) env->bend[leg] = bend_of(env, env->thigh[leg], mean);
 }
