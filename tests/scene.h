@@ -63,14 +63,19 @@ static inline void scene_leg(const Scene *s, Pose *p, bool left, double hip, dou
     scene_bend(s, p, (Role)(thigh + 1), (Role)(thigh + 3), -knee);
 }
 
-/* The left arm, turned towards the trunk by `degrees`. */
-static inline Pose scene_reaching(const Scene *s, double degrees) {
+/* The left arm, turned from the bind pose about an axis through the shoulder. */
+static inline Pose scene_arm_turned(const Scene *s, Vec3 axis, double degrees) {
     Pose pose = figure_rest_pose();
-    Mat3 turn = mat_axis_angle(vec(0, 0, 1), -degrees * PI / 180);
+    Mat3 turn = mat_axis_angle(axis, degrees * PI / 180);
     Vec3 pivot = s->figure.start[ROLE_LEFT_UPPER_ARM];
     Rigid about = {turn, vec_sub(pivot, mat_apply(turn, pivot))};
     for (int r = ROLE_LEFT_UPPER_ARM; r <= ROLE_LEFT_HAND; r++) pose.bone[r] = rigid_mul(about, pose.bone[r]);
     return pose;
+}
+
+/* The left arm, turned towards the trunk by `degrees`. */
+static inline Pose scene_reaching(const Scene *s, double degrees) {
+    return scene_arm_turned(s, vec(0, 0, -1), degrees);
 }
 
 /* One frame in a pose. */

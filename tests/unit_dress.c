@@ -375,6 +375,33 @@ static void cloth_rides_up_round_the_seat(void) {
     arena_free(&s->arena);
 }
 
+/* The least distance from the left shoulder, in its bind pose's, of what is bound to chest and left upper arm. */
+static double nearest_to_shoulder(Specimen *c, const Pose *pose) {
+    const Follower *f = &c->follower;
+    Vec3 joint = f->figure->start[ROLE_LEFT_UPPER_ARM], now = rigid_apply(pose->bone[ROLE_LEFT_UPPER_ARM], joint);
+    double least = INFINITY;
+    follow_pose(&c->follower, pose, c->root);
+    for (int k = 0; k < 2 * f->fit->ncurves; k++) {
+        const FitCurve *curve = &f->fit->curve[k / 2];
+        const Binding *b = &f->fit->node[curve->node[k % 2]].binding;
+        if (b->n != 2 || b->bone[0] != ROLE_CHEST || b->bone[1] != ROLE_LEFT_UPPER_ARM) continue;
+        double then = vec_dist(curve->rest[3 * (k % 2)], joint);
+        least = fmin(least, vec_dist(f->curve[k / 2][3 * (k % 2)], now) / then);
+    }
+    return least;
+}
+
+/* Below an arm that points away from the trunk there is room for cloth to be spanned, across the chest there is not. */
+static void arms_across_the_chest_crush_nothing(void) {
+    Specimen c;
+    specimen_open(&c, "tshirt", DETAIL, DEPTH);
+    Pose across = scene_arm_turned(&c.scene, vec(0, 1, 0), -110), raised = scene_reaching(&c.scene, -120);
+    double kept = nearest_to_shoulder(&c, &across), spanned = nearest_to_shoulder(&c, &raised);
+    OK(kept > 0.99, "cloth below an arm across the chest keeps its distance from the shoulder, %.3f of it", kept);
+    OK(spanned < 0.8, "below a raised arm it comes nearer, to %.3f", spanned);
+    arena_free(&c.scene.arena);
+}
+
 int main(void) {
     static const int openings[NSHIPPED] = {2, 2, 3, 4};
     for (int k = 0; k < NSHIPPED; k++) {
@@ -392,6 +419,7 @@ int main(void) {
     folds_are_mitres();
     raised_arms_stretch_little();
     cloth_rides_up_round_the_seat();
+    arms_across_the_chest_crush_nothing();
     skirts_hold_wide_hips();
     rows_that_no_collide_names_keep_out_as_well();
     rule_is_kept("paper-skirt");
