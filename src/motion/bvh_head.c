@@ -5,7 +5,7 @@
 
 #include "motion/source.h"
 
-enum { NESTING_MAX = 1000, NAME_MAX_BYTES = 1000, FIRST_JOINTS = 128 };
+enum { NESTING_MAX = 1000, NAME_MAX_BYTES = 1000 };
 
 const char *const bvh_channels[CHANNEL_KINDS] = {"Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation",
                                                  "Zrotation", "Xscale",    "Yscale",    "Zscale"};
@@ -18,7 +18,7 @@ typedef struct {
 typedef struct {
     Opening *o;
     Joint *joint;
-    int njoints, capacity;
+    int njoints, joint_capacity, seen_capacity;
     int open, depth;      /* the joint whose brace is open, -1 for none; braces open */
     Seen *seen;           /* per joint */
     bool await_brace;     /* a joint was named, and its '{' must follow */
@@ -28,18 +28,11 @@ typedef struct {
 static const char *joint_name(const Head *h, int i) { return h->joint[i].name; }
 
 static bool grow(Head *h, Error *e) {
-    if (h->njoints < h->capacity) return true;
-    int capacity = h->capacity ? 2 * h->capacity : FIRST_JOINTS;
-    Joint *joint = ARENA_NEW(h->o->scratch, Joint, capacity, e);
-    Seen *seen = ARENA_NEW(h->o->scratch, Seen, capacity, e);
+    Joint *joint = ARENA_GROW(h->o->scratch, Joint, h->joint, h->njoints, &h->joint_capacity, e);
+    Seen *seen = ARENA_GROW(h->o->scratch, Seen, h->seen, h->njoints, &h->seen_capacity, e);
     if (!joint || !seen) return false;
-    if (h->njoints) {
-        memcpy(joint, h->joint, (size_t)h->njoints * sizeof *joint);
-        memcpy(seen, h->seen, (size_t)h->njoints * sizeof *seen);
-    }
     h->joint = joint;
     h->seen = seen;
-    h->capacity = capacity;
     return true;
 }
 
