@@ -21,7 +21,7 @@ typedef struct {
    unreadable, binary or too large file and for a directory. */
 MUST_CHECK bool text_read(const char *path, size_t limit, Arena *arena, Text *out, Error *e);
 
-/* The same for any bytes, as they stand. One more, which does not count in size, is NUL. */
+/* The same where NUL bytes may stand inside. */
 MUST_CHECK bool text_read_raw(const char *path, size_t limit, Arena *arena, Text *out, Error *e);
 
 /* A place in a Text. Copy it to go back. */

@@ -24,10 +24,12 @@ static bool collect(const Settings *s, Arena *arena, Input **input, int *count, 
     for (int i = 0; i < s->inputs.count; i++)
         if (!settings_append(&all, s->inputs.item[i], arena, e)) return false;
     if (s->files_from && !listfile_read(s->files_from, arena, &all, e)) return false;
-    for (int i = 0; s->files_from && strcmp(s->files_from, "-") == 0 && i < all.count; i++)
+    bool from_stdin = s->files_from && strcmp(s->files_from, "-") == 0;
+    for (int i = 0; from_stdin && i < all.count; i++)
         if (strcmp(all.item[i], "-") == 0)
             return error_set(e, ERR_USAGE, "standard input cannot be both a motion and the list of motions");
-    if (all.count == 0) return error_set(e, ERR_INPUT, "the list '%s' names no motion", s->files_from);
+    if (all.count == 0)
+        return error_set(e, ERR_INPUT, "the list '%s' names no motion", from_stdin ? "<stdin>" : s->files_from);
     return inputs_collect(&all, arena, input, count, e);
 }
 

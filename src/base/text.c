@@ -52,15 +52,15 @@ bool text_read_raw(const char *path, size_t limit, Arena *arena, Text *out, Erro
     if (!data) return false;
     *out = (Text){standard ? "<stdin>" : path, arena_text(arena, data, size, e), size};
     free(data);
+    if (out->data && strncmp(out->data, "\xEF\xBB\xBF", 3) == 0) {
+        out->data += 3;
+        out->size -= 3;
+    }
     return out->data != NULL;
 }
 
 bool text_read(const char *path, size_t limit, Arena *arena, Text *out, Error *e) {
     if (!text_read_raw(path, limit, arena, out, e)) return false;
-    if (strncmp(out->data, "\xEF\xBB\xBF", 3) == 0) {
-        out->data += 3;
-        out->size -= 3;
-    }
     return !memchr(out->data, 0, out->size) ||
            error_set(e, ERR_INPUT, "'%s' is a binary file or UTF-16, not plain text", path);
 }
