@@ -46,8 +46,8 @@ static const char *put_hanging(void) {
     return in_folder("hanging.bvh");
 }
 
-/* A human whose names tell sides by `a` and `b`. */
-static const char *put_sides(const char *a, const char *b) {
+/* A human whose names tell sides by `a` and `b`. head: the joints above the chest. */
+static const char *put_sides(const char *a, const char *b, const char *head) {
     static const char *const leg[] = {"hip_", "knee_", "ankle_"}, *const arm[] = {"shoulder_", "elbow_", "wrist_"};
     FILE *f = fopen(in_folder("sides.bvh"), "w");
     if (!f) return "";
@@ -55,8 +55,7 @@ static const char *put_sides(const char *a, const char *b) {
     for (int k = 0; k < 2; k++) put_limb(f, leg, "", k ? b : a, k ? -9 : 9, 0, -40, 1);
     fputs("JOINT chest {\nOFFSET 0 40 0\nCHANNELS 0\n", f);
     for (int k = 0; k < 2; k++) put_limb(f, arm, "", k ? b : a, k ? -17 : 17, k ? -27 : 27, 0, 1);
-    fputs("JOINT head {\nOFFSET 0 20 0\nCHANNELS 0\nEnd Site { OFFSET 0 20 0 }\n}\n}\n}\n", f);
-    fputs("MOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0 0 0 0 0 0 0 0 0 0\n", f);
+    fprintf(f, "%s}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0 0 0 0 0 0 0 0 0 0\n", head);
     fclose(f);
     return in_folder("sides.bvh");
 }
@@ -103,8 +102,13 @@ int main(void) {
     two_roles(put_hanging(), ROLE_HEAD, "Head", ROLE_PELVIS, "Hips", "a tree that hangs from the head");
     two_roles(put_twins(), ROLE_LEFT_THIGH, "DEF-thigh.L", ROLE_RIGHT_FOREARM, "DEF-forearm.R",
               "of two limbs alike, the one that moves");
-    two_roles(put_sides("a", "b"), ROLE_PELVIS, "hips", ROLE_LEFT_THIGH, "hip_a", "sides told by an unknown word");
-    two_roles(put_sides("1", "2"), ROLE_RIGHT_SHIN, "knee_2", ROLE_RIGHT_UPPER_ARM, "shoulder_2", "by a number");
+    static const char head[] = "JOINT head { OFFSET 0 20 0 CHANNELS 0 End Site { OFFSET 0 20 0 } }\n";
+    static const char hat[] = "JOINT x1 { OFFSET 0 8 0 CHANNELS 0 JOINT x2 { OFFSET 0 8 0 CHANNELS 0\n"
+                              "JOINT x3 { OFFSET 0 14 0 CHANNELS 0 End Site { OFFSET 0 9 0 } } } }\n";
+    two_roles(put_sides("_l", "_r", hat), ROLE_NECK, "x1", ROLE_HEAD, "x2", "a joint at the crown is no head");
+    two_roles(put_sides("a", "b", head), ROLE_PELVIS, "hips", ROLE_LEFT_THIGH, "hip_a",
+              "sides told by an unknown word");
+    two_roles(put_sides("1", "2", head), ROLE_RIGHT_SHIN, "knee_2", ROLE_RIGHT_UPPER_ARM, "shoulder_2", "by a number");
     test_flat();
     folder_remove();
     return tap_done();
