@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/thread.h"
 #include "geometry/predicate.h"
 #include "dice.h"
 #include "tap.h"
@@ -247,6 +248,42 @@ static void test_meshes(Bench *b, Arena *arena, Error *e) {
     report(b, "a wavy tube round a tube, and a tube in its own place");
 }
 
+/* --- threads --- */
+
+enum { SEARCHES = 4, TIMES = 200 };
+
+typedef struct { Bench *b; int hits, wrong[SEARCHES]; } Crowd;
+
+static void search_among(void *context, int item, int worker) {
+    Crowd *c = context;
+    CrossingCount count = {0};
+    Crossing *found = c->b->found + item * c->hits;
+    (void)worker;
+    int n = crossing_find(&c->b->edges, &c->b->triangles, found, c->hits, &count);
+    c->wrong[item] += n != c->hits || memcmp(found, c->b->expected, (size_t)n * sizeof *found) != 0;
+}
+
+/* The first `skipped` items are left out, so that sixteen others share a tile. */
+static void build_without(Bench *b, int skipped) {
+    crossing_build_edges(&b->edges, b->v, b->edge + skipped, b->nedges - skipped);
+    crossing_build_triangles(&b->triangles, b->w, b->triangle + skipped, b->ntriangles - skipped);
+}
+
+/* The sets of the last scene, built anew and searched by several at once, again and again. */
+static void test_threads(Bench *b, Error *e) {
+    CrossingCount count = {0};
+    Crowd crowd = {.b = b, .hits = crossing_find(&b->edges, &b->triangles, b->expected, HITS / SEARCHES, &count)};
+    int wrong = 0;
+    for (int k = 0; k < TIMES; k++) {
+        build_without(b, 1);
+        crossing_find(&b->edges, &b->triangles, b->found, HITS, &count);
+        build_without(b, 0);
+        if (!thread_each(SEARCHES, SEARCHES, search_among, &crowd, e)) abort();
+    }
+    for (int i = 0; i < SEARCHES; i++) wrong += crowd.wrong[i];
+    OK(wrong == 0 && crowd.hits > 100, "%d threads that search at once find the same (%d hits)", SEARCHES, crowd.hits);
+}
+
 int main(void) {
     Arena arena = {0};
     Error e = {0};
@@ -259,6 +296,7 @@ int main(void) {
     test_grid(&b);
     test_near_planes(&b);
     test_meshes(&b, &arena, &e);
+    test_threads(&b, &e);
     CrossingSet set;
     arena.fail_after = 3;
     OK(!crossing_reserve(&set, 100, &arena, &e) && e.kind == ERR_INTERNAL, "no memory is an error, not a crash");

@@ -3,6 +3,8 @@
 #ifndef GEOMETRY_CROSSING_H
 #define GEOMETRY_CROSSING_H
 
+#include <stdatomic.h>
+
 #include "base/arena.h"
 #include "geometry/mesh.h"
 #include "geometry/tile.h"
@@ -16,17 +18,19 @@ typedef struct {
     int hits;               /* pairs that intersect (predicate_segment_triangle) */
 } CrossingCount;
 
-/* Boxes over one set of segments or triangles, made for repeated queries. Memory is taken at
-   crossing_reserve and kept; building allocates nothing. Private inside but for `vectors`. */
+/* Boxes over one set of segments or triangles, made for repeated queries, by several threads at a time. Memory is taken
+   at crossing_reserve and kept; building allocates nothing. Private inside but for `vectors`. */
 enum { CROSSING_LEVELS = 3 };
 typedef struct {
-    Vectors vectors;      /* instruction set to use; a search takes that of the edges */
-    int capacity, count;  /* items */
-    const Vec3 *position; /* borrowed, as is the next: both must stay until the next build */
-    const int *index;     /* per item 2 (segments) or 3 (triangles) vertices */
-    float reach;          /* largest magnitude of a coordinate */
+    Vectors vectors;        /* instruction set to use; a search takes that of the edges */
+    int capacity, count;    /* items */
+    const TileItems *items; /* segments or triangles */
+    const Vec3 *position;   /* borrowed, as is the next: both must stay as they are until the next build */
+    const int *index;       /* per item 2 (segments) or 3 (triangles) vertices */
+    float reach;            /* largest magnitude of a coordinate */
     Tile *level[CROSSING_LEVELS]; /* boxes of items, of tiles of items, of tiles of those */
-    TileShapes *shapes;   /* of the tiles of items: ends of segments, planes of triangles */
+    TileShapes *shapes;     /* of the tiles of items, made when a search first asks for them, */
+    atomic_uchar *state;    /* and how far each of these is */
 } CrossingSet;
 
 MUST_CHECK bool crossing_reserve(CrossingSet *set, int capacity, Arena *arena, Error *e);

@@ -24,23 +24,25 @@ typedef struct { _Alignas(64) float n[3][TILE_LANES], w[TILE_LANES]; } TilePlane
 
 typedef union { TileEnds ends; TilePlanes planes; } TileShapes;
 
-/* Makes the boxes and the shapes of n <= 16 items whose corners are position[index[0]], position[index[1]], ... Boxes
-   beyond are empty. The box round all of them becomes box `lane` of `above`. */
-typedef void TileItems(Tile *out, TileShapes *shapes, const Vec3 *position, const int *index, int n, Tile *above,
-                       int lane);
-
-/* Segments against triangles: of both the boxes and the shapes. */
-typedef struct { const Tile *segments, *triangles; const TileEnds *ends; const TilePlanes *planes; } TilePair;
+/* What is made of n <= 16 items whose corners are position[index[0]], position[index[1]], ... */
+typedef struct {
+    int corners; /* of an item: 2, a segment, or 3, a triangle */
+    /* Their boxes, the lanes beyond empty. The box round all of them becomes box `lane` of `above`. */
+    void (*boxes)(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane);
+    /* The ends of segments, the planes of triangles. */
+    void (*shapes)(TileShapes *out, const Vec3 *position, const int *index, int n);
+} TileItems;
 
 typedef struct {
-    TileItems *segments, *triangles; /* items of two and of three corners */
+    TileItems segments, triangles;
     /* For each k in `lanes` row[k] becomes the lanes of tile a that overlap box k of tile b; touching is enough.
        Returns the lanes of b that overlap any. */
     TileLanes (*meet)(const Tile *a, const Tile *b, TileLanes lanes, TileLanes row[TILE_LANES]);
-    /* For each triangle k in `lanes` row[k] becomes the segments that may reach it: their boxes overlap, and they do
+    /* For each triangle k in `lanes` row[k] keeps, of the segments in it, those that may reach the triangle: they do
        not have both ends on one side of its plane, farther from it than `slack`. Returns the triangles that any may
-       reach; adds the number of boxes that overlap to *pairs. */
-    TileLanes (*reach)(const TilePair *of, TileLanes lanes, float slack, TileLanes row[TILE_LANES], long long *pairs);
+       reach; adds how many segments there were to *pairs. */
+    TileLanes (*reach)(const TileEnds *ends, const TilePlanes *planes, TileLanes lanes, float slack,
+                       TileLanes row[TILE_LANES], long long *pairs);
 } TileMachine;
 
 /* The functions for an instruction set. All give the same bits. */

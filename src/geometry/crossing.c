@@ -13,6 +13,7 @@
 #include "geometry/predicate.h"
 
 enum { LANES = TILE_LANES, TOP = CROSSING_LEVELS - 1 };
+enum { SHAPES_UNKNOWN, SHAPES_BEGUN, SHAPES_KNOWN }; /* of a tile */
 
 static int lowest(unsigned lanes) { return __builtin_ctz(lanes); }
 static int tiles(int n) { return n / LANES + (n % LANES != 0); }
@@ -24,7 +25,8 @@ bool crossing_reserve(CrossingSet *set, int capacity, Arena *arena, Error *e) {
         if (!set->level[l]) return false;
     }
     set->shapes = ARENA_NEW(arena, TileShapes, tiles(capacity), e);
-    return set->shapes != NULL;
+    set->state = ARENA_NEW(arena, atomic_uchar, tiles(capacity), e);
+    return set->shapes && set->state;
 }
 
 /* --- building --- */
@@ -58,17 +60,26 @@ Box crossing_box(const CrossingSet *set) {
     return box;
 }
 
-static void build(CrossingSet *set, const Vec3 *position, const int *index, int n, int corners, TileItems *items) {
+/* Where the corners of a tile's items begin, and how many items it has. */
+static const int *items_of(const CrossingSet *set, int tile, int *n) {
+    int left = set->count - tile * LANES;
+    *n = left < LANES ? left : LANES;
+    return set->index + (size_t)tile * LANES * (size_t)set->items->corners;
+}
+
+static void build(CrossingSet *set, const TileItems *items, const Vec3 *position, const int *index, int n) {
+    set->items = items;
     set->position = position;
     set->index = index;
     set->count = n;
-    for (int t = 0, left = n; left > 0; t++, left -= LANES) {
-        const int *first = index + (size_t)t * LANES * (size_t)corners;
-        items(&set->level[0][t], &set->shapes[t], position, first, left < LANES ? left : LANES,
-              &set->level[1][t / LANES], t % LANES);
+    n = tiles(n);
+    for (int t = 0; t < n; t++) {
+        int here;
+        const int *first = items_of(set, t, &here);
+        items->boxes(&set->level[0][t], position, first, here, &set->level[1][t / LANES], t % LANES);
+        atomic_init(&set->state[t], SHAPES_UNKNOWN);
     }
-    for (int l = 1; l <= TOP; l++) {
-        n = tiles(n);
+    for (int l = 1; l <= TOP; l++, n = tiles(n)) {
         if (n % LANES) tile_empty(&set->level[l][n / LANES], n % LANES);
         for (int t = 0; l < TOP && t < tiles(n); t++)
             tile_sum(&set->level[l][t], &set->level[l + 1][t / LANES], t % LANES);
@@ -77,11 +88,11 @@ static void build(CrossingSet *set, const Vec3 *position, const int *index, int 
 }
 
 void crossing_build_edges(CrossingSet *set, const Vec3 *position, const Edge *edge, int n) {
-    build(set, position, (const int *)edge, n, 2, tile_machine(set->vectors)->segments);
+    build(set, &tile_machine(set->vectors)->segments, position, (const int *)edge, n);
 }
 
 void crossing_build_triangles(CrossingSet *set, const Vec3 *position, const Triangle *triangle, int n) {
-    build(set, position, (const int *)triangle, n, 3, tile_machine(set->vectors)->triangles);
+    build(set, &tile_machine(set->vectors)->triangles, position, (const int *)triangle, n);
 }
 
 /* --- searching --- */
@@ -113,12 +124,33 @@ static void decide(Search *s, int edge, int triangle) {
     if (s->written < s->capacity) s->out[s->written++] = (Crossing){edge, triangle};
 }
 
+static void make_shapes(const CrossingSet *set, int tile, TileShapes *out) {
+    int n;
+    const int *index = items_of(set, tile, &n);
+    set->items->shapes(out, set->position, index, n);
+}
+
+/* The shapes of a tile, made when they are first asked for: of most tiles never. While another thread is making them,
+   they are made once more, in `room`. */
+static const TileShapes *shapes_of(const CrossingSet *set, int tile, TileShapes *room) {
+    unsigned char state = atomic_load_explicit(&set->state[tile], memory_order_acquire);
+    if (state == SHAPES_KNOWN) return &set->shapes[tile];
+    bool is_first = state == SHAPES_UNKNOWN && atomic_compare_exchange_strong(&set->state[tile], &state, SHAPES_BEGUN);
+    TileShapes *out = is_first ? &set->shapes[tile] : room;
+    make_shapes(set, tile, out);
+    if (is_first) atomic_store_explicit(&set->state[tile], SHAPES_KNOWN, memory_order_release);
+    return out;
+}
+
 /* Tile i of the edges against the lanes `triangles` of tile j of the triangles. */
 static void search_items(Search *s, int i, int j, TileLanes triangles) {
-    TilePair of = {&s->edges->level[0][i], &s->triangles->level[0][j], &s->edges->shapes[i].ends,
-                   &s->triangles->shapes[j].planes};
     TileLanes row[LANES];
-    unsigned left = s->machine->reach(&of, triangles, s->slack, row, &s->count->pairs_tested);
+    TileShapes a, b;
+    triangles = s->machine->meet(&s->edges->level[0][i], &s->triangles->level[0][j], triangles, row);
+    if (!triangles) return;
+    const TileEnds *ends = &shapes_of(s->edges, i, &a)->ends;
+    const TilePlanes *planes = &shapes_of(s->triangles, j, &b)->planes;
+    unsigned left = s->machine->reach(ends, planes, triangles, s->slack, row, &s->count->pairs_tested);
     for (; left; left &= left - 1) {
         int k = lowest(left);
         for (unsigned edges = row[k]; edges; edges &= edges - 1) decide(s, i * LANES + lowest(edges), j * LANES + k);
@@ -152,14 +184,18 @@ int crossing_find(const CrossingSet *edges, const CrossingSet *triangles, Crossi
 
 /* --- without culling --- */
 
-/* Tiles first..end-1 of the edges against every triangle. */
+enum { BLOCK = 64 };
+
+/* Tiles first..end-1 of the edges, at most BLOCK, against every triangle. */
 static void search_block(Search *s, int first, int end) {
+    TileShapes of_edges[BLOCK], of_triangles;
+    for (int i = first; i < end; i++) make_shapes(s->edges, i, &of_edges[i - first]);
     for (int triangle = 0; triangle < s->triangles->count; triangle++) {
         int tile = triangle / LANES, lane = triangle % LANES;
         const Tile *box = &s->triangles->level[0][tile];
-        const TilePlanes *planes = &s->triangles->shapes[tile].planes;
+        if (lane == 0) make_shapes(s->triangles, tile, &of_triangles);
         for (int i = first; i < end; i++) {
-            unsigned found = tile_reaching(&s->edges->shapes[i].ends, planes, lane, s->slack);
+            unsigned found = tile_reaching(&of_edges[i - first].ends, &of_triangles.planes, lane, s->slack);
             if (found) found &= tile_overlap(&s->edges->level[0][i], box, lane);
             for (; found; found &= found - 1) decide(s, i * LANES + lowest(found), triangle);
         }
@@ -171,7 +207,6 @@ static void search_block(Search *s, int first, int end) {
    number of pairs. Segments come in blocks that fit into the first-level cache. */
 int crossing_find_plainly(const CrossingSet *edges, const CrossingSet *triangles, Crossing *out, int capacity,
                           CrossingCount *count) {
-    enum { BLOCK = 64 };
     Search s = search_of(edges, triangles, out, capacity, count);
     long long pairs = (long long)edges->count * triangles->count;
     count->pairs_all += pairs;

@@ -59,12 +59,13 @@ ALWAYS const int *item_of(const int *index, int corners, int n, int lane) {
     return index + corners * (lane < n ? lane : n - 1);
 }
 
-static void plain_ends(TileEnds *out, const Vec3 *position, const int *index, int n) {
+static void plain_ends(TileShapes *out, const Vec3 *position, const int *index, int n) {
+    TileEnds *ends = &out->ends;
     for (int k = 0; k < TILE_LANES; k++) {
         const int *i = item_of(index, 2, n, k);
         Vec3 p = position[i[0]], q = position[i[1]];
-        out->p[0][k] = (float)p.x, out->p[1][k] = (float)p.y, out->p[2][k] = (float)p.z;
-        out->q[0][k] = (float)q.x, out->q[1][k] = (float)q.y, out->q[2][k] = (float)q.z;
+        ends->p[0][k] = (float)p.x, ends->p[1][k] = (float)p.y, ends->p[2][k] = (float)p.z;
+        ends->q[0][k] = (float)q.x, ends->q[1][k] = (float)q.y, ends->q[2][k] = (float)q.z;
     }
 }
 
@@ -89,18 +90,18 @@ ALWAYS void find_planes(TilePlanes *out, const Vec3 *position, const int *index,
     }
 }
 
-static void plain_segments(Tile *out, TileShapes *shapes, const Vec3 *position, const int *index, int n, Tile *above,
-                           int lane) {
+static void plain_segments(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane) {
     plain_boxes(out, position, index, 2, n);
     tile_sum(out, above, lane);
-    plain_ends(&shapes->ends, position, index, n);
 }
 
-static void plain_triangles(Tile *out, TileShapes *shapes, const Vec3 *position, const int *index, int n, Tile *above,
-                            int lane) {
+static void plain_triangles(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane) {
     plain_boxes(out, position, index, 3, n);
     tile_sum(out, above, lane);
-    find_planes(&shapes->planes, position, index, n);
+}
+
+static void plain_planes(TileShapes *out, const Vec3 *position, const int *index, int n) {
+    find_planes(&out->planes, position, index, n);
 }
 
 static const int bit[TILE_LANES] = {1,   2,   4,    8,    16,   32,   64,    128,
@@ -141,27 +142,29 @@ TileLanes tile_reaching(const TileEnds *ends, const TilePlanes *planes, int k, f
     }                                                                                             \
     return (TileLanes)any
 
-/* That of `reach`, likewise. Boxes come first, so that which planes are asked for is known when the first one is. */
-#define REACH(meet, reaching)                                                                     \
-    unsigned any = 0;                                                                             \
-    for (unsigned left = meet(of->segments, of->triangles, lanes, row); left; left &= left - 1) { \
-        int k = __builtin_ctz(left);                                                              \
-        *pairs += __builtin_popcount(row[k]);                                                     \
-        row[k] &= reaching(of->ends, of->planes, k, slack);                                       \
-        any |= row[k] ? 1u << k : 0;                                                              \
-    }                                                                                             \
+/* That of `reach`, likewise. */
+#define REACH(reaching)                                       \
+    unsigned any = 0;                                         \
+    for (unsigned left = lanes; left; left &= left - 1) {     \
+        int k = __builtin_ctz(left);                          \
+        *pairs += __builtin_popcount(row[k]);                 \
+        row[k] &= reaching(ends, planes, k, slack);           \
+        any |= row[k] ? 1u << k : 0;                          \
+    }                                                         \
     return (TileLanes)any
 
 static TileLanes plain_meet(const Tile *a, const Tile *b, TileLanes lanes, TileLanes row[TILE_LANES]) {
     MEET(tile_overlap);
 }
 
-static TileLanes plain_reach(const TilePair *of, TileLanes lanes, float slack, TileLanes row[TILE_LANES],
-                             long long *pairs) {
-    REACH(plain_meet, tile_reaching);
+static TileLanes plain_reach(const TileEnds *ends, const TilePlanes *planes, TileLanes lanes,
+                             float slack, TileLanes row[TILE_LANES], long long *pairs) {
+    REACH(tile_reaching);
 }
 
-static const TileMachine plain = {plain_segments, plain_triangles, plain_meet, plain_reach};
+static const TileMachine plain = {
+    {2, plain_segments, plain_ends}, {3, plain_triangles, plain_planes}, plain_meet, plain_reach,
+};
 
 /* --- vectors of x86-64 --- */
 
@@ -190,27 +193,29 @@ FOR_AVX2 static inline __m128 largest_of(const __m128 v[4]) {
     return _mm_max_ps(_mm_max_ps(v[0], v[1]), _mm_max_ps(v[2], v[3]));
 }
 
-/* The boxes of a whole tile, and the ends if they are segments; `corners` is known where this is inlined. */
-FOR_AVX2 static inline void avx2_boxes(Tile *out, TileEnds *ends, const Vec3 *position, const int *index, int corners,
+/* `corners` is known where this is inlined. */
+FOR_AVX2 static inline void avx2_boxes(Tile *out, const Vec3 *position, const int *index, int corners, int n,
                                        Tile *above, int lane) {
+    if (n < TILE_LANES) {
+        plain_boxes(out, position, index, corners, n);
+        tile_sum(out, above, lane);
+        return;
+    }
     __m128 part_low[4], part_high[4];
     for (int part = 0; part < 4; part++) {
-        __m128 first[4], last[4], low[4], high[4];
+        __m128 low[4], high[4];
         for (int k = 0; k < 4; k++, index += corners) {
-            low[k] = high[k] = first[k] = corner(&position[index[0]]);
+            low[k] = high[k] = corner(&position[index[0]]);
             for (int c = 1; c < corners; c++) {
-                last[k] = corner(&position[index[c]]);
-                low[k] = _mm_min_ps(low[k], last[k]);
-                high[k] = _mm_max_ps(high[k], last[k]);
+                __m128 other = corner(&position[index[c]]);
+                low[k] = _mm_min_ps(low[k], other);
+                high[k] = _mm_max_ps(high[k], other);
             }
         }
         part_low[part] = least_of(low);
         part_high[part] = largest_of(high);
         store_lanes(out->low, 4 * part, low);
         store_lanes(out->high, 4 * part, high);
-        if (corners > 2) continue;
-        store_lanes(ends->p, 4 * part, first);
-        store_lanes(ends->q, 4 * part, last);
     }
     float low[4], high[4];
     _mm_storeu_ps(low, least_of(part_low));
@@ -218,26 +223,29 @@ FOR_AVX2 static inline void avx2_boxes(Tile *out, TileEnds *ends, const Vec3 *po
     for (int x = 0; x < 3; x++) above->low[x][lane] = low[x], above->high[x][lane] = high[x];
 }
 
-FOR_AVX2 static void avx2_segments(Tile *out, TileShapes *shapes, const Vec3 *position, const int *index, int n,
-                                   Tile *above, int lane) {
-    if (n < TILE_LANES) plain_segments(out, shapes, position, index, n, above, lane);
-    else avx2_boxes(out, &shapes->ends, position, index, 2, above, lane);
+FOR_AVX2 static void avx2_segments(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane) {
+    avx2_boxes(out, position, index, 2, n, above, lane);
 }
 
-FOR_AVX2 static inline void avx2_triangle_boxes(Tile *out, const Vec3 *position, const int *index, int n, Tile *above,
-                                                int lane) {
-    if (n == TILE_LANES) {
-        avx2_boxes(out, NULL, position, index, 3, above, lane);
-        return;
+FOR_AVX2 static void avx2_triangles(Tile *out, const Vec3 *position, const int *index, int n, Tile *above, int lane) {
+    avx2_boxes(out, position, index, 3, n, above, lane);
+}
+
+FOR_AVX2 static void avx2_ends(TileShapes *out, const Vec3 *position, const int *index, int n) {
+    for (int first = 0; first < TILE_LANES; first += 4) {
+        __m128 p[4], q[4];
+        for (int k = 0; k < 4; k++) {
+            const int *i = item_of(index, 2, n, first + k);
+            p[k] = corner(&position[i[0]]);
+            q[k] = corner(&position[i[1]]);
+        }
+        store_lanes(out->ends.p, first, p);
+        store_lanes(out->ends.q, first, q);
     }
-    plain_boxes(out, position, index, 3, n);
-    tile_sum(out, above, lane);
 }
 
-FOR_AVX2 static void avx2_triangles(Tile *out, TileShapes *shapes, const Vec3 *position, const int *index, int n,
-                                    Tile *above, int lane) {
-    avx2_triangle_boxes(out, position, index, n, above, lane);
-    find_planes(&shapes->planes, position, index, n);
+FOR_AVX2 static void avx2_planes(TileShapes *out, const Vec3 *position, const int *index, int n) {
+    find_planes(&out->planes, position, index, n);
 }
 
 /* Eight boxes of tile a, from `first` on. */
@@ -278,15 +286,13 @@ FOR_AVX2 static TileLanes avx2_meet(const Tile *a, const Tile *b, TileLanes lane
     MEET(avx2_overlap);
 }
 
-FOR_AVX2 static TileLanes avx2_reach(const TilePair *of, TileLanes lanes, float slack, TileLanes row[TILE_LANES],
-                                     long long *pairs) {
-    REACH(avx2_meet, avx2_reaching);
+FOR_AVX2 static TileLanes avx2_reach(const TileEnds *ends, const TilePlanes *planes, TileLanes lanes,
+                                     float slack, TileLanes row[TILE_LANES], long long *pairs) {
+    REACH(avx2_reaching);
 }
 
-FOR_AVX512 static void avx512_triangles(Tile *out, TileShapes *shapes, const Vec3 *position, const int *index, int n,
-                                        Tile *above, int lane) {
-    avx2_triangle_boxes(out, position, index, n, above, lane);
-    find_planes(&shapes->planes, position, index, n);
+FOR_AVX512 static void avx512_planes(TileShapes *out, const Vec3 *position, const int *index, int n) {
+    find_planes(&out->planes, position, index, n);
 }
 
 FOR_AVX512 static inline TileLanes avx512_overlap(const Tile *a, const Tile *b, int k) {
@@ -318,13 +324,17 @@ FOR_AVX512 static TileLanes avx512_meet(const Tile *a, const Tile *b, TileLanes 
     MEET(avx512_overlap);
 }
 
-FOR_AVX512 static TileLanes avx512_reach(const TilePair *of, TileLanes lanes, float slack, TileLanes row[TILE_LANES],
-                                         long long *pairs) {
-    REACH(avx512_meet, avx512_reaching);
+FOR_AVX512 static TileLanes avx512_reach(const TileEnds *ends, const TilePlanes *planes, TileLanes lanes,
+                                         float slack, TileLanes row[TILE_LANES], long long *pairs) {
+    REACH(avx512_reaching);
 }
 
-static const TileMachine avx2 = {avx2_segments, avx2_triangles, avx2_meet, avx2_reach};
-static const TileMachine avx512 = {avx2_segments, avx512_triangles, avx512_meet, avx512_reach};
+static const TileMachine avx2 = {
+    {2, avx2_segments, avx2_ends}, {3, avx2_triangles, avx2_planes}, avx2_meet, avx2_reach,
+};
+static const TileMachine avx512 = {
+    {2, avx2_segments, avx2_ends}, {3, avx2_triangles, avx512_planes}, avx512_meet, avx512_reach,
+};
 
 const TileMachine *tile_machine(Vectors vectors) {
     vectors = vectors_pick(vectors);
