@@ -319,6 +319,14 @@ static void folds_are_mitres(void) {
     arena_free(&s.arena);
 }
 
+/* Where all places of the lattice are in the pose that was followed last. In the scene's arena. */
+static Vec3 *places_now(Specimen *c) {
+    Vec3 *at = ARENA_NEW(&c->scene.arena, Vec3, c->lattice.nplaces, &c->scene.error);
+    need(&c->scene, at != NULL);
+    for (int place = 0; place < c->lattice.nplaces; place++) at[place] = lattice_point(&c->lattice, c->root, place);
+    return at;
+}
+
 /* The most by which an edge of the sheet is longer in the global shape of a pose than in the bind pose. */
 static double most_stretched(Specimen *c, const Pose *pose, Vec3 *rest) {
     double most = 0;
@@ -336,9 +344,7 @@ static void raised_arms_stretch_little(void) {
     Specimen c;
     specimen_open(&c, "tshirt", DETAIL, DEPTH);
     Scene *s = &c.scene;
-    Vec3 *rest = ARENA_NEW(&s->arena, Vec3, c.lattice.nplaces, &s->error);
-    need(s, rest != NULL);
-    for (int place = 0; place < c.lattice.nplaces; place++) rest[place] = lattice_point(&c.lattice, c.root, place);
+    Vec3 *rest = places_now(&c);
     double most = 0;
     for (int degrees = -135; degrees <= 45; degrees += 15) {
         Pose pose = scene_reaching(s, degrees);
@@ -353,9 +359,7 @@ static void cloth_rides_up_round_the_seat(void) {
     Specimen c;
     specimen_open(&c, "skirt", DETAIL, DEPTH);
     Scene *s = &c.scene;
-    Vec3 *rest = ARENA_NEW(&s->arena, Vec3, c.lattice.nplaces, &s->error);
-    need(s, rest != NULL);
-    for (int place = 0; place < c.lattice.nplaces; place++) rest[place] = lattice_point(&c.lattice, c.root, place);
+    Vec3 *rest = places_now(&c);
     double most = 0, deepest = 0;
     for (int left = 0; left <= 120; left += 15)
         for (int less = 0; less <= 30; less += 30) {

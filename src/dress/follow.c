@@ -8,6 +8,7 @@
 
 #include <string.h>
 
+#include "dress/armpit.h"
 #include "dress/blend.h"
 #include "dress/crease.h"
 #include "dress/envelope.h"
@@ -54,48 +55,6 @@ bool follow_reserve(Follower *f, const Fit *fit, const Figure *figure, const Bod
     return true;
 }
 
-/* An armpit in a pose, of one side. */
-typedef struct {
-    Vec3 joint;     /* of the shoulder */
-    double radius;  /* of its flesh */
-    double spanned; /* 0..1: how far cloth is spanned below the arm */
-} Armpit;
-
-/* Below an arm that is raised nothing holds cloth out as a kneecap does. There it does not keep its distance from the
-   joint, as a blend does, but is spanned straight from the trunk to the arm; only the shoulder itself it goes round.
-   An arm that hangs, or lies across the chest, has no such room below it: cloth would be crushed there. */
-static Armpit armpit_find(const Follower *f, const Pose *pose, Role arm) {
-    static const double AWAY = 0.5; /* an arm that points sideways or up by so much of its length has all the room */
-    int part = f->body->of_role[arm];
-    if (part < 0) return (Armpit){.spanned = 0};
-    Vec3 along = mat_apply(pose->bone[arm].r, vec_sub(f->figure->end[arm], f->figure->start[arm]));
-    Vec3 d = mat_apply(mat_transpose(pose->bone[ROLE_CHEST].r), vec_unit_or(along, vec(0, 0, 0)));
-    Section shoulder = body_section_at(&f->body->part[part], 0);
-    return (Armpit){.joint = rigid_apply(pose->bone[arm], f->figure->start[arm]),
-                    .radius = fmax(shoulder.side, fmax(shoulder.front, shoulder.back)),
-                    .spanned = smoothstep(0, AWAY, fmax(arm == ROLE_LEFT_UPPER_ARM ? d.x : -d.x, d.y))};
-}
-
-/* The side (0 left, 1 right) of the arm that a binding to trunk and arm names; -1 for any other. */
-static int armpit_of(const Binding *b) {
-    int side = -1;
-    for (int i = 0; i < b->n; i++)
-        if (b->bone[i] == ROLE_LEFT_UPPER_ARM || b->bone[i] == ROLE_RIGHT_UPPER_ARM)
-            side = b->bone[i] == ROLE_RIGHT_UPPER_ARM;
-        else if (role_limb(b->bone[i]) != 0)
-            return -1;
-    return side;
-}
-
-/* Where cloth is that a blend leaves at a point, after it is spanned. */
-static Vec3 spanned(const Armpit *a, const Pose *pose, const Binding *b, Vec3 rest, Vec3 at) {
-    Vec3 straight = {0, 0, 0};
-    for (int i = 0; i < b->n; i++)
-        straight = vec_mad(straight, rigid_apply(pose->bone[b->bone[i]], rest), b->weight[i]);
-    double away = vec_dist(at, a->joint), left = fmax(vec_dist(straight, a->joint), a->radius);
-    return left < away ? vec_lerp(at, vec_lerp(a->joint, at, left / away), a->spanned) : at;
-}
-
 /* The inner control point at an end of a half arc that its middle station shapes (see FitCurve). node: where that
    end is. The handle keeps at least LEAST of its rest length, or a leg that is bent far would turn it over. */
 static Vec3 shaped_handle(const Blender *b, const FitCurve *curve, int end, Vec3 node) {
@@ -120,7 +79,7 @@ static void keep_curve(Follower *f, const Pose *pose, int curve) {
 
 static void curves_by_bones(Follower *f, const Pose *pose) {
     Blender b = blender_of(f->figure, pose);
-    const Armpit armpit[] = {armpit_find(f, pose, ROLE_LEFT_UPPER_ARM), armpit_find(f, pose, ROLE_RIGHT_UPPER_ARM)};
+    Armpits armpits = armpits_find(f->figure, f->body, pose);
     f->folds = folds_find(f->body, pose);
     for (int c = 0; c < f->fit->ncurves; c++) {
         const FitCurve *curve = &f->fit->curve[c];
@@ -128,9 +87,7 @@ static void curves_by_bones(Follower *f, const Pose *pose) {
             const FitNode *node = &f->fit->node[curve->node[end]];
             Vec3 rest = curve->rest[3 * end], handle = vec_sub(curve->rest[1 + end], rest);
             Rigid g = blend_at(&b, &node->binding, rest);
-            int side = armpit_of(&node->binding);
-            Vec3 at = rigid_apply(g, rest);
-            if (side >= 0) at = spanned(&armpit[side], pose, &node->binding, rest, at);
+            Vec3 at = armpits_span(&armpits, pose, &node->binding, rest, rigid_apply(g, rest));
             at = f->curve[c][3 * end] = crease_mitre(f->figure, pose, &node->binding, at);
             f->curve[c][1 + end] =
                 curve->middle.n ? shaped_handle(&b, curve, end, at) : vec_add(at, mat_apply(g.r, handle));
