@@ -120,8 +120,10 @@ def read_acclaim(amc, asf):
         index[name] = len(joints)
         joint = Joint(name, index.get(parent), tip(bones[parent]) if parent else (0, 0, 0))
         angles, turns = bone["axis"]
-        # Values come in the order of dof; what is turned first says the axis, for the bone as for its frame.
-        bone["turns"] = sorted(bone["dof"], key=lambda d: d[0] == "r" and -turns.lower().index(d[1]))
+        # Values come in the order of dof; what is turned first says the axis, for the bone as for its frame, but the
+        # root turns in the order of its values.
+        first = "".join(d[1] for d in bone["dof"] if d[0] == "r") if name == "root" else turns.lower()
+        bone["turns"] = sorted(bone["dof"], key=lambda d: d[0] == "r" and -first.index(d[1]))
         joint.channels = [("position" if d[0] == "t" else "rotation", d[1]) for d in bone["turns"]]
         for angle, axis in zip(angles, "xyz"):
             bone[axis] = about(axis, angle)
@@ -204,8 +206,9 @@ def make_bvh(dice, name):
 
 def make_acclaim(dice, name):
     """Bones with any axis, any order of it, any degrees of freedom in any order."""
-    asf = [":units", " length 0.45", " angle " + dice.choice(["deg", "rad"]), ":root", " order TX TY TZ RX RY RZ",
-           " axis XYZ", " position 0 0 0", " orientation 0 0 0", ":bonedata"]
+    order = " order " + " ".join(dice.sample(["TX", "TY", "TZ", "RX", "RY", "RZ"], 6))
+    asf = [":units", " length 0.45", " angle " + dice.choice(["deg", "rad"]), ":root", order, " axis XYZ",
+           " position 0 0 0", " orientation 0 0 0", ":bonedata"]
     dof, parents = {"root": 6 * ["t"]}, {}
     for i in range(12):
         bone = f"bone{i}"

@@ -78,6 +78,20 @@ static void test_skeleton(void) {
     session_close(s);
 }
 
+/* What the root turns first its `order` says, whatever the `axis` of its position at rest. */
+static void test_root_order(void) {
+    folder_put_text("root.asf", ":root\n order RZ TX TY RY TZ RX\n axis YXZ\n position 0 0 0\n orientation 0 0 0\n"
+                                ":bonedata\n" BONE("a") ":hierarchy\n begin\n root a\n end\n");
+    folder_put_text("root.amc", ":DEGREES\n1\nroot 30 1 2 20 3 10\na 5\n");
+    Session *s = &session;
+    bool good = session_open(s, in_folder("root.amc"), (MotionOptions){0}) && session_row(s, 0);
+    const double row[] = {1, 2, 3, 10, 20, 30, 5};
+    const ChannelKind *c = s->motion.skeleton.joint[0].channel;
+    OK(good && c[3] == CHANNEL_RX && c[4] == CHANNEL_RY && c[5] == CHANNEL_RZ && same(s->row, row, 7),
+       "a root whose order is RZ RY RX is the product Rx Ry Rz %s", s->e.text);
+    session_close(s);
+}
+
 static void test_units(void) {
     folder_put_text("rad.asf", ":units\n angle rad\n length 1\n" ROOT
                                ":bonedata\n begin\n name a\n direction 1 0 0\n length 1\n"
@@ -238,6 +252,7 @@ static void test_search(void) {
 int main(void) {
     if (!folder_make()) return 1;
     test_skeleton();
+    test_root_order();
     test_units();
     test_rate();
     test_cases();

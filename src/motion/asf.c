@@ -2,7 +2,8 @@
    and a length in the rest pose and begins where its parent ends. So a bone becomes the joint at its beginning, the
    OFFSET of a joint is its parent's bone, and a leaf gets an end site. The rotations D of a bone are given in its
    own frame, which is turned by C, its `axis`: R = C D C^-1. An order XYZ says that x is turned first, as a product
-   of matrices Rz Ry Rx. */
+   of matrices Rz Ry Rx. What a bone turns first its `axis` says; the root has an `order` of its own for that
+   (M. Schafer, Acclaim Skeleton File Definition V1.10, 1995). */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -254,11 +255,24 @@ static bool read_sections(Asf *a, Error *e) {
     }
 }
 
+/* The axes about which a part turns, the first one first. */
+static void find_turns(const Part *p, bool is_root, char turns[AXES]) {
+    int n = 0;
+    for (int i = 0; is_root && i < p->bone.ndof; i++) {
+        int kind = p->bone.dof[i];
+        if (kind >= CHANNEL_RX && kind <= CHANNEL_RZ) turns[n++] = (char)('X' + (kind - CHANNEL_RX));
+    }
+    for (int i = 0; i < AXES; i++)
+        if (!memchr(turns, p->order[i], (size_t)n)) turns[n++] = p->order[i];
+}
+
 /* Rotations and translations in the order of the product, and which value goes where. */
-static void set_channels(Part *p, Joint *j) {
+static void set_channels(Part *p, bool is_root, Joint *j) {
     Bone *b = &p->bone;
+    char turns[AXES];
     int product[6] = {CHANNEL_TX, CHANNEL_TY, CHANNEL_TZ};
-    for (int i = 0; i < 3; i++) product[3 + i] = CHANNEL_RX + (p->order[2 - i] - 'X');
+    find_turns(p, is_root, turns);
+    for (int i = 0; i < 3; i++) product[3 + i] = CHANNEL_RX + (turns[2 - i] - 'X');
     for (int i = 0; i < b->ndof; i++) b->slot[i] = -1;
     for (int k = 0; k < 6; k++) {
         for (int i = 0; i < b->ndof; i++) {
@@ -295,7 +309,7 @@ static bool add_joint(Asf *a, int i, Joint *joint, int *njoints, Error *e) {
     *j = (Joint){.name = p->bone.name, .parent = i ? a->part[p->parent].joint : -1};
     if (i == 0) j->offset = p->direction; /* the root's position; it has no length */
     else if (p->parent) j->offset = vec_scale(a->part[p->parent].direction, a->part[p->parent].length);
-    set_channels(p, j);
+    set_channels(p, i == 0, j);
     set_axis(a, p, j);
     p->joint = (*njoints)++;
     return i == 0 || p->first_child >= 0 || add_end(a, p, &joint[(*njoints)++], e);
