@@ -21,8 +21,7 @@ static const double LEG_ROOM_CM = 2.2; /* room for swinging round each leg in a 
 static const double APART_CM = 3;      /* a ring is so much wider to either side than its legs if they cross */
 static const double SPARE_CM2 = 10;    /* width of the soft corner where the legs take up the last of the cloth */
 static const double LAP_LEAST_CM = 14, LAP_MOST_CM = 26; /* below the hip joints: where the lap of a bent hip begins */
-static const double RIDES_UP = 0.7;    /* share of the longer way round the outside of a bent hip over which cloth is
-                                          spread evenly */
+static const double TURNS_CM[2] = {-3, 10}; /* below the hip joints: where rings turn most */
 static const double CORNER_CM = 2;     /* width of the soft corners where the lap begins, and beside the outside */
 enum { RIDE_STEPS = 6 };
 /* Ranges of a hip's flexion, radians: over the first the front comes to hang, until the thigh is level; over the
@@ -212,13 +211,13 @@ static double before_step(double a, double b, double rise, double y) {
 
 /* Round the outside of a bent hip the way is longer than the cloth, round the seat of who sits by half its length. If
    only the two rings next to the hip made up for that, they would be far apart, and the cloth between them would take a
-   short cut through the seat. So cloth rides up there: it is spread over the whole way between the first ring and the
-   last, which stay where they are. Returns the s of the body at which cloth of s lies. */
+   short cut through the seat. So cloth rides up there: it is spread evenly over the whole way between the first ring
+   and the last, which stay where they are. Returns the s of the body at which cloth of s lies. */
 static double ridden_up(const Envelope *env, double s, double x, double z) {
     double outside = soft_positive(x * env->outside[0] + z * env->outside[1], CORNER_CM * env->cm);
     double top = envelope_place(env, 0), end = envelope_place(env, env->fit->garment->nrings - 1);
-    double longer = RIDES_UP * env->turn * outside, evenly = s + longer * (s - top) / (end - top);
-    return before_step(-ABOVE_CM * env->cm, BELOW_CM * env->cm, longer, evenly);
+    double longer = env->turn * outside, evenly = s + longer * (s - top) / (end - top);
+    return before_step(TURNS_CM[0] * env->cm, TURNS_CM[1] * env->cm, longer, evenly);
 }
 
 double envelope_place(const Envelope *env, int ring) { return env->hip_height - env->fit->ring[ring].y; }
