@@ -6,13 +6,18 @@
 #include "tap.h"
 
 /* A limb of three bones whose names stand between `before` and `after`. It begins `aside` of its parent; each bone goes
-   x, y on, and turns by so many channels. */
-static void put_limb(FILE *f, const char *const bones[3], const char *before, const char *after, double aside, double x,
-                     double y, int channels) {
+   x, y on, and turns by so many channels. tip: what is below the last. */
+static void put_limb_with(FILE *f, const char *const bones[3], const char *before, const char *after, double aside,
+                          double x, double y, int channels, const char *tip) {
     for (int b = 0; b < 3; b++)
         fprintf(f, "JOINT %s%s%s {\nOFFSET %g %g 0\nCHANNELS %d %s\n", before, bones[b], after, b ? x : aside,
                 b ? y : 0, channels, channels ? "Zrotation" : "");
-    fputs("End Site { OFFSET 0 0 9 }\n}\n}\n}\n", f);
+    fprintf(f, "%s\n}\n}\n}\n", tip);
+}
+
+static void put_limb(FILE *f, const char *const bones[3], const char *before, const char *after, double aside, double x,
+                     double y, int channels) {
+    put_limb_with(f, bones, before, after, aside, x, y, channels, "End Site { OFFSET 0 0 9 }");
 }
 
 /* A human whose limbs are there twice: with bones that keep still, for the animator, before those that move. */
@@ -46,15 +51,17 @@ static const char *put_hanging(void) {
     return in_folder("hanging.bvh");
 }
 
-/* A human whose names tell sides by `a` and `b`. head: the joints above the chest. */
-static const char *put_sides(const char *a, const char *b, const char *head) {
+/* A human whose names tell sides by `a` and `b`. head: the joints above the chest. held: what is below the second
+   hand. */
+static const char *put_sides(const char *a, const char *b, const char *head, const char *held) {
     static const char *const leg[] = {"hip_", "knee_", "ankle_"}, *const arm[] = {"shoulder_", "elbow_", "wrist_"};
     FILE *f = fopen(in_folder("sides.bvh"), "w");
     if (!f) return "";
     fputs("HIERARCHY\nROOT hips {\nOFFSET 0 0 0\nCHANNELS 0\n", f);
     for (int k = 0; k < 2; k++) put_limb(f, leg, "", k ? b : a, k ? -9 : 9, 0, -40, 1);
     fputs("JOINT chest {\nOFFSET 0 40 0\nCHANNELS 0\n", f);
-    for (int k = 0; k < 2; k++) put_limb(f, arm, "", k ? b : a, k ? -17 : 17, k ? -27 : 27, 0, 1);
+    put_limb(f, arm, "", a, 17, 27, 0, 1);
+    put_limb_with(f, arm, "", b, -17, -27, 0, 1, held);
     fprintf(f, "%s}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0 0 0 0 0 0 0 0 0 0\n", head);
     fclose(f);
     return in_folder("sides.bvh");
@@ -105,10 +112,15 @@ int main(void) {
     static const char head[] = "JOINT head { OFFSET 0 20 0 CHANNELS 0 End Site { OFFSET 0 20 0 } }\n";
     static const char hat[] = "JOINT x1 { OFFSET 0 8 0 CHANNELS 0 JOINT x2 { OFFSET 0 8 0 CHANNELS 0\n"
                               "JOINT x3 { OFFSET 0 14 0 CHANNELS 0 End Site { OFFSET 0 9 0 } } } }\n";
-    two_roles(put_sides("_l", "_r", hat), ROLE_NECK, "x1", ROLE_HEAD, "x2", "a joint at the crown is no head");
-    two_roles(put_sides("a", "b", head), ROLE_PELVIS, "hips", ROLE_LEFT_THIGH, "hip_a",
+    static const char hand[] = "End Site { OFFSET 0 0 9 }";
+    static const char staff[] = "JOINT x1 { OFFSET 0 80 0 CHANNELS 0 JOINT x2 { OFFSET 0 -100 0 CHANNELS 0 } }\n";
+    two_roles(put_sides("_l", "_r", hat, hand), ROLE_NECK, "x1", ROLE_HEAD, "x2", "a joint at the crown is no head");
+    two_roles(put_sides("a", "b", head, hand), ROLE_PELVIS, "hips", ROLE_LEFT_THIGH, "hip_a",
               "sides told by an unknown word");
-    two_roles(put_sides("1", "2", head), ROLE_RIGHT_SHIN, "knee_2", ROLE_RIGHT_UPPER_ARM, "shoulder_2", "by a number");
+    two_roles(put_sides("1", "2", head, hand), ROLE_RIGHT_SHIN, "knee_2", ROLE_RIGHT_UPPER_ARM, "shoulder_2",
+              "by a number");
+    two_roles(put_sides("a", "b", head, staff), ROLE_LEFT_HAND, "wrist_a", ROLE_RIGHT_HAND, "wrist_b",
+              "a staff looks more like an arm than the arm does, but not like the other arm");
     test_flat();
     folder_remove();
     return tap_done();

@@ -9,6 +9,7 @@ typedef enum { LIMB_LEG, LIMB_ARM } LimbKind;
 /* A leg (thigh, shin, foot) or an arm (upper arm, forearm, hand). The last one may be an end
    site, which only marks where the shin or forearm ends. */
 typedef struct {
+    int first;         /* the child of the hub with which its chain begins */
     int joint[3];
     int clavicle;      /* arms only; -1 = none */
     double length[2];  /* file units */

@@ -35,6 +35,7 @@ static const double NO_WAY = 0.02;
 typedef struct {
     int count, joint[DEPTH_MAX];
     double along[DEPTH_MAX]; /* distance from the hub along the chain */
+    const Limb *like;        /* the limb of the other side, if that is known */
 } Way;
 
 /* How surely the name says that this is no limb: a bone of the trunk, neck or head, or of no body at all. */
@@ -108,10 +109,15 @@ static bool keeps_still(const Tree *t, int hub, const Limb *limb) {
     return true;
 }
 
+/* Points lost by two limbs for bones of unlike lengths. */
+static double unlikeness(const Limb *a, const Limb *b) {
+    return MIRROR * (square(log(a->length[0] / b->length[0])) + square(log(a->length[1] / b->length[1])));
+}
+
 /* Scores the limb of the chain's joints a, b and its last one, and keeps it in *best if it is better. */
 static void try_limb(const Tree *t, LimbKind kind, const Way *w, int a, int b, Limb *best) {
     int c = w->count - 1, end = w->joint[c];
-    Limb limb = {.joint = {w->joint[a], w->joint[b], end}, .clavicle = -1, .found = true};
+    Limb limb = {.first = w->joint[0], .joint = {w->joint[a], w->joint[b], end}, .clavicle = -1, .found = true};
     limb.length[0] = sample_distance(t->sample, limb.joint[0], limb.joint[1]);
     limb.length[1] = sample_distance(t->sample, limb.joint[1], limb.joint[2]);
     double total = w->along[c] - w->along[0] + t->reach[end], both = limb.length[0] + limb.length[1];
@@ -130,6 +136,7 @@ static void try_limb(const Tree *t, LimbKind kind, const Way *w, int a, int b, L
         limb.clavicle = find_clavicle(t, w, a, &points);
         limb.score += points;
     }
+    if (w->like) limb.score -= unlikeness(&limb, w->like);
     if (best->found && limb.score <= best->score + 1e-9) return;
     if (keeps_still(t, t->skeleton->joint[w->joint[0]].parent, &limb)) limb.score -= STILL;
     if (best->found && limb.score <= best->score + 1e-9) return;
@@ -151,23 +158,38 @@ static void walk_limbs(const Tree *t, LimbKind kind, Way *w, int joint, Limb *be
     w->count--;
 }
 
-/* The best limb that begins at or below `first`, a child of the hub. */
-static Limb best_limb(const Tree *t, LimbKind kind, int first) {
-    Way way = {0};
+/* The best limb that begins at or below `first`, a child of the hub: by itself, or beside the limb `like` of the other
+   side. */
+static Limb best_limb(const Tree *t, LimbKind kind, int first, const Limb *like) {
+    Way way = {.like = like};
     Limb best = {0};
     walk_limbs(t, kind, &way, first, &best);
+    if (like && best.found) best.score += unlikeness(&best, like); /* the pair loses it, and not the limb */
     return best;
 }
 
 static LimbPair make_pair(const Tree *t, LimbKind kind, int hub, const Limb *a, const Limb *b) {
-    LimbPair pair = {kind, hub, {*a, *b}, a->score + b->score};
-    pair.score -= MIRROR * (square(log(a->length[0] / b->length[0])) + square(log(a->length[1] / b->length[1])));
+    LimbPair pair = {kind, hub, {*a, *b}, a->score + b->score - unlikeness(a, b)};
     double da = sample_distance(t->sample, hub, a->joint[0]), db = sample_distance(t->sample, hub, b->joint[0]);
     double size = a->length[0] + a->length[1];
     pair.score -= MIRROR * square((da - db) / size);
     if (a->side * b->side < 0) pair.score += SIDES_NAMED;
     if (a->side * b->side > 0) pair.score -= SAME_SIDE;
     return pair;
+}
+
+/* Two limbs of a hub. What a hand holds may look more like a limb than the arm itself does. So where two are unlike,
+   each is also paired with what is best beside it on the other side. */
+static LimbPair best_pair(const Tree *t, LimbKind kind, int hub, const Limb *a, const Limb *b) {
+    static const double UNLIKE = 2; /* points */
+    LimbPair best = make_pair(t, kind, hub, a, b);
+    for (int way = 0; way < 2 && unlikeness(a, b) > UNLIKE; way++) {
+        const Limb *kept = way ? b : a;
+        Limb other = best_limb(t, kind, way ? a->first : b->first, kept);
+        LimbPair pair = make_pair(t, kind, hub, kept, &other);
+        if (pair.score > best.score) best = pair;
+    }
+    return best;
 }
 
 /* Keeps the `most` best pairs, best first. */
@@ -186,7 +208,7 @@ static int limbs_of_hub(const Tree *t, LimbKind kind, int hub, Limb limb[CHILDRE
     for (int c = t->child[hub]; c >= 0; c = t->sibling[c]) children += !t->skeleton->joint[c].is_end;
     for (int c = t->child[hub]; c >= 0 && children >= 2; c = t->sibling[c]) {
         if (t->skeleton->joint[c].is_end) continue;
-        Limb l = best_limb(t, kind, c);
+        Limb l = best_limb(t, kind, c, NULL);
         if (!l.found || (n == CHILDREN_MAX && limb[n - 1].score >= l.score)) continue;
         int i = n < CHILDREN_MAX ? n++ : n - 1;
         while (i > 0 && limb[i - 1].score < l.score) { limb[i] = limb[i - 1]; i--; }
@@ -201,7 +223,7 @@ int limbs_find(const Tree *t, LimbKind kind, int most, LimbPair *out) {
         Limb limb[CHILDREN_MAX];
         int n = limbs_of_hub(t, kind, hub, limb);
         for (int a = 0; a < n; a++)
-            for (int b = a + 1; b < n; b++) keep_pair(make_pair(t, kind, hub, &limb[a], &limb[b]), most, out, &count);
+            for (int b = a + 1; b < n; b++) keep_pair(best_pair(t, kind, hub, &limb[a], &limb[b]), most, out, &count);
     }
     return count;
 }
