@@ -46,12 +46,13 @@ static bool find_bent(const Facing *f, const Mesh *m) {
 }
 
 static void list_corners(const Facing *f, const Mesh *m) {
-    for (int corner = 0; corner < 3 * m->ntriangles; corner++) {
-        int *first = &f->corner[m->triangle[corner / 3].v[corner % 3]];
-        if (*first == STRAIGHT) continue;
-        f->next[corner] = *first;
-        *first = corner;
-    }
+    for (int t = 0; t < m->ntriangles; t++)
+        for (int c = 0; c < 3; c++) {
+            int *first = &f->corner[m->triangle[t].v[c]];
+            if (*first == STRAIGHT) continue;
+            f->next[3 * t + c] = *first;
+            *first = 3 * t + c;
+        }
 }
 
 /* The facets round a vertex that have an area. */
