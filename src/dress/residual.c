@@ -205,16 +205,8 @@ typedef struct {
     Vec3 point[LOT];
 } Suspects;
 
-static void suspect(const Tester *t, const BodyFrame *body, int part, const bool *clear, int v, Suspects *of) {
-    if (clear && clear[v]) return;
-    Vec3 x = vec_scale(t->position[v], 1 / body->unit);
-    of->vertex[of->n] = v;
-    of->point[of->n] = x;
-    of->n += !body_frame_far(body, part, x, 0);
-}
-
-/* Marks those that are. */
-static void ask(Tester *t, const BodyFrame *body, int part, const Suspects *of) {
+/* Marks those that are. None is left. */
+static void ask(Tester *t, const BodyFrame *body, int part, Suspects *of) {
     bool is_own = t->own & part_bit(body, part);
     double distance[LOT];
     body_frame_distances(body, part, of->point, of->n, 0, distance);
@@ -225,33 +217,43 @@ static void ask(Tester *t, const BodyFrame *body, int part, const Suspects *of) 
         double *deepest = is_own ? &sunk->own : &sunk->other;
         *deepest = fmax(*deepest, -distance[k]);
     }
+    of->n = 0;
+}
+
+static void suspect(Tester *t, const BodyFrame *body, int part, const bool *clear, int v, Suspects *of) {
+    if (clear && clear[v]) return;
+    Vec3 x = vec_scale(t->position[v], 1 / body->unit);
+    of->vertex[of->n] = v;
+    of->point[of->n] = x;
+    of->n += !body_frame_far(body, part, x, 0);
+    if (of->n == LOT) ask(t, body, part, of);
 }
 
 /* Asks all parts about all vertices. */
 static void find_inside(Tester *t, const BodyFrame *body, const bool *clear) {
     Suspects of;
+    of.n = 0;
     memset(t->sunk, 0, (size_t)t->nvertices * sizeof *t->sunk);
     box_vertices(t, 1 / body->unit);
-    for (int p = 0; p < body->body->nparts; p++)
-        for (int v = 0; v < t->nvertices;) {
-            for (of.n = 0; v < t->nvertices && of.n < LOT; v++) {
-                bool is_near = v % BLOCK || box_touches(t->block[v / BLOCK], body->box[p]);
-                if (is_near) suspect(t, body, p, clear, v, &of);
-                else v += BLOCK - 1;
-            }
-            if (of.n > 0) ask(t, body, p, &of);
+    for (int p = 0; p < body->body->nparts; p++) {
+        for (int v = 0; v < t->nvertices; v++) {
+            bool is_near = v % BLOCK || box_touches(t->block[v / BLOCK], body->box[p]);
+            if (is_near) suspect(t, body, p, clear, v, &of);
+            else v += BLOCK - 1;
         }
+        ask(t, body, p, &of);
+    }
 }
 
 /* Asks all parts about n vertices. */
 static void find_inside_again(Tester *t, const BodyFrame *body, const int *vertex, int n, const bool *clear) {
     Suspects of;
+    of.n = 0;
     for (int k = 0; k < n; k++) t->sunk[vertex[k]] = (TesterSunk){0};
-    for (int p = 0; p < body->body->nparts; p++)
-        for (int k = 0; k < n;) {
-            for (of.n = 0; k < n && of.n < LOT; k++) suspect(t, body, p, clear, vertex[k], &of);
-            if (of.n > 0) ask(t, body, p, &of);
-        }
+    for (int p = 0; p < body->body->nparts; p++) {
+        for (int k = 0; k < n; k++) suspect(t, body, p, clear, vertex[k], &of);
+        ask(t, body, p, &of);
+    }
 }
 
 /* Counts the vertices inside parts, and appends them to the bad. */
