@@ -67,6 +67,47 @@ static const char *put_sides(const char *a, const char *b, const char *head, con
     return in_folder("sides.bvh");
 }
 
+/* Two humans beside each other, A: and B:, below two ROOTs or one. */
+static const char *put_two(bool one_root) {
+    static const char *const leg[] = {"Thigh", "Shin", "Foot"}, *const arm[] = {"UpperArm", "Forearm", "Hand"};
+    FILE *f = fopen(in_folder("two.bvh"), "w");
+    if (!f) return "";
+    fputs("HIERARCHY\n", f);
+    if (one_root) fputs("ROOT World {\nOFFSET 0 0 0\nCHANNELS 0\n", f);
+    for (int k = 0; k < 2; k++) {
+        const char *left = k ? "B:Left" : "A:Left", *right = k ? "B:Right" : "A:Right";
+        fprintf(f, "%s %.2sHips {\nOFFSET %d 0 0\nCHANNELS 0\n", one_root ? "JOINT" : "ROOT", left, k * 60);
+        put_limb(f, leg, left, "", 9, 0, -40, 1);
+        put_limb(f, leg, right, "", -9, 0, -40, 1);
+        fprintf(f, "JOINT %.2sChest {\nOFFSET 0 40 0\nCHANNELS 0\n", left);
+        put_limb(f, arm, left, "", 17, 27, 0, 1);
+        put_limb(f, arm, right, "", -17, -27, 0, 1);
+        fprintf(f, "JOINT %.2sHead {\nOFFSET 0 20 0\nCHANNELS 0\nEnd Site { OFFSET 0 20 0 }\n}\n}\n}\n", left);
+    }
+    fprintf(f, "%sMOTION\nFrames: 1\nFrame Time: 0.1\n", one_root ? "}\n" : "");
+    for (int i = 0; i < 24; i++) fputs("0 ", f);
+    fputs("\n", f);
+    fclose(f);
+    return in_folder("two.bvh");
+}
+
+/* One role that is told chooses between figures: all others are of the same. */
+static void test_two(void) {
+    static const char *const told[] = {"", "pelvis = B:Hips\n", "head = B:Head\n", "left_hand = B:LeftHand\n",
+                                       "right_shin = B:RightShin\n", "left_hand = A:LeftHand\n"};
+    for (int i = 0; i < 12; i++) {
+        Rig r;
+        const char *path = put_two(i % 2), *roles = folder_put_text("roles", told[i / 2]);
+        char who = strstr(told[i / 2], "B:") ? 'B' : 'A';
+        int wrong = !rig_roles(&r, path, roles);
+        for (Role role = 0; role < ROLE_COUNT && !wrong; role++)
+            wrong += r.roles.joint[role] >= 0 && rig_joint(&r, role)[0] != who;
+        OK(wrong == 0, "of two figures below %s that of '%.*s'", i % 2 ? "one root" : "two roots",
+           (int)strcspn(told[i / 2], "\n"), told[i / 2]);
+        rig_close(&r);
+    }
+}
+
 /* Joints that all hang on one: only their names tell what they are. */
 static const char *put_flat(const char *const names[], int n) {
     FILE *f = fopen(in_folder("flat.bvh"), "w");
@@ -121,6 +162,7 @@ int main(void) {
               "by a number");
     two_roles(put_sides("a", "b", head, staff), ROLE_LEFT_HAND, "wrist_a", ROLE_RIGHT_HAND, "wrist_b",
               "a staff looks more like an arm than the arm does, but not like the other arm");
+    test_two();
     test_flat();
     folder_remove();
     return tap_done();

@@ -14,8 +14,9 @@ enum { PAIRS = 8 }; /* of each kind that are tried */
 static const double ARM_BY_LEG = 0.66, TORSO_BY_LEG = 0.62;
 
 /* Points, added to those of the pairs (limbs.c): lost for a length that is e times or 1/e of the usual; won by legs
-   that always go straight on from the torso; lost where nothing leads on to a head. */
-static const double ODD_LENGTHS = 4, LEGS_DOWN = 6, NO_HEAD = 3;
+   that always go straight on from the torso; lost where nothing leads on to a head, and where arms and legs leave
+   different branches of the tree, as those of two figures do. */
+static const double ODD_LENGTHS = 4, LEGS_DOWN = 6, NO_HEAD = 3, OTHER_BRANCH = 3;
 static const double HEAD_LEAST = 0.1; /* what leads on to a head is at least as long as that, in upper arms */
 
 /* The least points of a human: skeletons without any name get about 35, with names 150. */
@@ -48,6 +49,9 @@ static bool tangled(const Tree *t, const LimbPair *a, const LimbPair *b) {
     return false;
 }
 
+/* Is one of two joints below the other? */
+static bool in_line(const Tree *t, int a, int b) { return tree_below(t, a, b) || tree_below(t, b, a); }
+
 static int root_of(const Tree *t, int joint) {
     while (t->skeleton->joint[joint].parent >= 0) joint = t->skeleton->joint[joint].parent;
     return joint;
@@ -57,6 +61,7 @@ typedef struct {
     Limbs limbs;
     double arm, torso; /* lengths against the leg */
     double down;       /* mean cosine between legs and the line from shoulders to hips: 1 where they go straight on */
+    int against;       /* roles that are told, and that another figure plays */
     double score;
 } Candidate;
 
@@ -88,10 +93,27 @@ static bool human_score(const Tree *t, const LimbPair *legs, const LimbPair *arm
         }
     }
     if (trunk <= TORSO_NONE * leg) return false;
-    *out = (Candidate){limbs, arm / leg, trunk / leg, down, legs->score + arms->score + LEGS_DOWN * down};
+    *out = (Candidate){limbs, arm / leg, trunk / leg, down, 0, legs->score + arms->score + LEGS_DOWN * down};
     out->score -= ODD_LENGTHS * (square(log(out->arm / ARM_BY_LEG)) + square(log(out->torso / TORSO_BY_LEG)));
     if (!has_head(t, arms)) out->score -= NO_HEAD;
+    if (!in_line(t, legs->hub, arms->hub)) out->score -= OTHER_BRANCH;
     return true;
+}
+
+/* --- several figures --- */
+
+/* Can this joint play that role in a figure with these limbs? Left and right are not asked: they may change places. */
+static bool belongs_to(const Tree *t, const Limbs *limbs, Role role, int joint) {
+    int limb = role_limb(role);
+    const LimbPair *p = limb > 2 || role == ROLE_PELVIS || role == ROLE_SPINE ? limbs->legs : limbs->arms;
+    if (limb == 0) return in_line(t, joint, p->hub);
+    return in_line(t, joint, p->limb[0].joint[1]) || in_line(t, joint, p->limb[1].joint[1]);
+}
+
+static int count_against(const Tree *t, const Limbs *limbs, const Roles *told) {
+    int n = 0;
+    for (Role r = 0; r < ROLE_COUNT; r++) n += told->joint[r] >= 0 && !belongs_to(t, limbs, r, told->joint[r]);
+    return n;
 }
 
 /* --- left and right --- */
@@ -278,14 +300,17 @@ static void set_by_names(const Tree *t, Roles *out) {
     }
 }
 
-void human_find(const Tree *t, Notes *notes, Roles *out) {
+void human_find(const Tree *t, const Roles *told, Notes *notes, Roles *out) {
     LimbPair legs[PAIRS], arms[PAIRS];
     int nlegs = limbs_find(t, LIMB_LEG, PAIRS, legs), narms = limbs_find(t, LIMB_ARM, PAIRS, arms);
-    Candidate best = {.score = HUMAN}, c;
+    Candidate best = {.score = HUMAN, .against = ROLE_COUNT}, c;
     for (int r = 0; r < ROLE_COUNT; r++) out->joint[r] = -1;
     for (int l = 0; l < nlegs; l++)
-        for (int a = 0; a < narms; a++)
-            if (human_score(t, &legs[l], &arms[a], &c) && c.score > best.score) best = c;
+        for (int a = 0; a < narms; a++) {
+            if (!human_score(t, &legs[l], &arms[a], &c) || c.score <= HUMAN) continue;
+            c.against = count_against(t, &c.limbs, told);
+            if (c.against < best.against || (c.against == best.against && c.score > best.score)) best = c;
+        }
     if (best.limbs.legs && possible(&best)) {
         set_limbs(t, &best.limbs, left_leg(t, &best.limbs, notes), same_side(t, &best.limbs), out);
         trunk_find(t, &best.limbs, out);

@@ -154,10 +154,11 @@ bool roles_read(const Motion *m, const char *roles_file, Arena *scratch, Notes *
     if (!sample_read(m, SAMPLE_FRAMES, scratch, &sample, e)) return false;
     if (!tree_build(&m->skeleton, &sample, scratch, &tree, e)) return false;
     bool given[ROLE_COUNT] = {false};
-    Roles file = {{0}};
+    Roles file;
+    for (int r = 0; r < ROLE_COUNT; r++) file.joint[r] = -1;
     if (roles_file && !read_file(&m->skeleton, roles_file, scratch, given, &file, e)) return false;
     bool sides_are_told = given[ROLE_LEFT_THIGH] && given[ROLE_RIGHT_THIGH]; /* then the search may doubt in silence */
-    human_find(&tree, sides_are_told ? NULL : notes, out);
+    human_find(&tree, &file, sides_are_told ? NULL : notes, out);
     take_from_file(&m->skeleton, given, &file, notes, out);
     return check_distinct(&m->skeleton, out, e) && check_required(m, out, e);
 }
