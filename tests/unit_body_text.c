@@ -79,9 +79,10 @@ static void test_bad_text(void) {
         {HEAD "section 0 0 0 .1 .1 .1\nsection 0 0 0 .1 .1 .1\n", 4, 9, "must grow"},
         {HEAD "section 0 0 0 0 .1 .1\n", 3, 15, "side must be"},
         {HEAD "section 0 0 0 .1 -1 .1\n", 3, 18, "front must be"},
-        {HEAD "section 0 0 0 .1 .1 12\n", 3, 21, "back must be"},
+        {HEAD "section 0 0 0 .1 .1 1.01\n", 3, 21, "back must be"},
+        {HEAD "section 0 0 -1.01 .1 .1 .1\n", 3, 13, "z must be"},
         {HEAD "section 0 0 nan .1 .1 .1\n", 3, 13, "expected a number"},
-        {HEAD "section 99 0 0 .1 .1 .1\n", 3, 9, "at must be"},
+        {HEAD "section 10.1 0 0 .1 .1 .1\n", 3, 9, "at must be"},
         {HEAD "section 0 0 0 .1 .1\n", 3, 20, "'back' is missing"},
         {HEAD "section 0 0 0 .1 .1 .1 7\n", 3, 24, "unexpected '7'"},
         {"body b\n" TWO, 2, 1, "outside of a part"},
@@ -109,6 +110,9 @@ static void test_bad_text(void) {
     Text text = text_of(many);
     OK(!body_parse(&text, &out, &e) && e.line == 3 + SPEC_SECTIONS_MAX && strstr(e.text, "more than"),
        "too many sections: %s", e.text);
+    Text widest = text_of(HEAD "section -10 -1 1 .001 .001 1\nsection 10 1 -1 1 1 .001\n");
+    Error fine = {0};
+    OK(body_parse(&widest, &out, &fine), "the widest part that is read %s", fine.text);
     Text mirror = text_of("body b\npart right_hand\nsection 0 .5 0 .1 .1 .1\nsection 1 0 0 .1 .1 .1\n"
                           "mirror left_hand\n");
     Error none = {0};

@@ -15,7 +15,7 @@ static void test_names(void) {
         {"LUARM", 1, PART_UPPER_ARM}, {"RFARM", -1, PART_FOREARM}, {"RtForearm", -1, PART_FOREARM},
         {"arm_lower_L", 1, PART_FOREARM}, {"LegUpR", -1, PART_THIGH}, {"rgt_shank_jnt", -1, PART_SHIN},
         {"UpperArm_L_low", 1, PART_UPPER_ARM}, {"lft_leg_lower", 1, PART_SHIN},
-        {"lowerneck", 0, PART_NECK}, {"Head_M", 0, PART_HEAD},
+        {"lowerneck", 0, PART_NECK}, {"head neck upper", 0, PART_NECK}, {"Head_M", 0, PART_HEAD},
     };
     for (size_t i = 0; i < sizeof hints / sizeof hints[0]; i++) {
         NameHint h = name_hint(hints[i].name);

@@ -65,6 +65,7 @@ static const Phrase phrases[] = {
     {"upper", "chest", 'c', PART_CHEST, 1},
     {"lower", "neck", 'c', PART_NECK, 1},
     {"upper", "neck", 'c', PART_NECK, 0.8},
+    {"head", "neck", 'c', PART_NECK, 0.9}, /* XNALara: head neck lower, head neck upper */
     {"shoulder", "blade", 's', PART_CLAVICLE, 0.7},
     {"up", "arm", 's', PART_UPPER_ARM, 1},
     {"upper", "arm", 's', PART_UPPER_ARM, 1},
