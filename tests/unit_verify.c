@@ -218,6 +218,24 @@ static Mesh sheet(int n, double size, double gap) {
     return m;
 }
 
+/* A tube bent to a ring, whose two ends are `apart`. */
+static Mesh bent_tube(double apart) {
+    enum { AROUND = 8, ALONG = 24 };
+    Mesh m = empty();
+    for (int i = 0; i <= ALONG; i++)
+        for (int k = 0; k < AROUND; k++) {
+            double turn = (2 * PI - apart) * i / ALONG, angle = 2 * PI * k / AROUND, r = 1 + 0.3 * cos(angle);
+            put(&m, r * cos(turn), r * sin(turn), 0.3 * sin(angle));
+        }
+    for (int i = 0; i < ALONG; i++)
+        for (int k = 0; k < AROUND; k++) {
+            int a = i * AROUND + k, b = i * AROUND + (k + 1) % AROUND;
+            face(&m, a, b, a + AROUND);
+            face(&m, b, b + AROUND, a + AROUND);
+        }
+    return m;
+}
+
 static Border border(const Mesh *m) {
     Error e = {0};
     Border b = {0};
@@ -249,6 +267,10 @@ static void test_border(void) {
     }
     b = border(&m);
     OK(b.pieces == 2 && b.ncracks == 0, "two hems that touch are no crack (%d)", b.ncracks);
+
+    m = bent_tube(0.001);
+    b = border(&m);
+    OK(b.pieces == 2 && b.ncracks == 0, "nor are the two ends of one tube (%d)", b.ncracks);
 
     m = empty(); /* one square of two triangles beside one whose side has a vertex in the middle */
     put(&m, 0, 0, 0), put(&m, 1, 0, 0), put(&m, 0, 1, 0), put(&m, 1, 1, 0), put(&m, 2, 0.5, 0), put(&m, 1, 0.5, 0);

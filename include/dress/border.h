@@ -5,8 +5,8 @@
 
 #include "geometry/mesh.h"
 
-/* A border vertex with a border edge near in space that is not near along the border, and has its cloth on
-   another side. */
+/* A border vertex with a border edge near in space that is not near along the border, is no other hem of the same
+   cloth, and has its cloth on another side. */
 typedef struct { int vertex; double distance; } Crack;
 
 /* Edges of one triangle make the border; vertices with the same coordinates are one. */

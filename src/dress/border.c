@@ -1,6 +1,7 @@
 /* Where a border comes near to itself there are three cases. A narrow fold: the way along the border is not much
-   longer than the way across. Two hems that touch, as those of trousers do when the feet are close: the cloth is on
-   the same side of both. Else it is a crack, with cloth on both sides of it. */
+   longer than the way across. Two hems that touch, as those of trousers do when the feet are close: they are two pieces
+   of the border of one cloth, or the cloth is on the same side of both. Else it is a crack, with cloth on both sides of
+   it: both its lips are one piece of the border, or belong to parts that nothing holds together. */
 #include "dress/border.h"
 
 #include "geometry/boxtree.h"
@@ -20,6 +21,8 @@ typedef struct {
     int *degree;    /* per vertex: edges of the border there */
     int (*at)[2];   /* per vertex: the first two of them */
     Vec3 *inward;   /* per edge: square to it, into its triangle; unit */
+    Sets piece;     /* vertices that edges of the border join */
+    Sets cloth;     /* vertices that any edges join */
     BoxTree tree;
 } Rim;
 
@@ -41,9 +44,9 @@ static bool is_same_side(const Rim *r, int vertex, int k) {
 
 static bool find_rim(Rim *r, Arena *arena, int *pieces, Error *e) {
     Topology t;
-    Sets sets;
     int n = r->mesh->nvertices;
-    if (!topology_find(r->mesh, NULL, arena, &t, e) || !sets_make(&sets, n, arena, e)) return false;
+    if (!topology_find(r->mesh, NULL, arena, &t, e)) return false;
+    if (!sets_make(&r->piece, n, arena, e) || !sets_make(&r->cloth, n, arena, e)) return false;
     r->edge = ARENA_NEW(arena, Edge, t.nsides, e);
     r->flat = ARENA_NEW(arena, Triangle, t.nsides, e);
     r->degree = ARENA_NEW(arena, int, n, e);
@@ -51,19 +54,26 @@ static bool find_rim(Rim *r, Arena *arena, int *pieces, Error *e) {
     r->inward = ARENA_NEW(arena, Vec3, t.nsides, e);
     if (!r->edge || !r->flat || !r->degree || !r->at || !r->inward) return false;
     for (int i = 0, run; i < t.nsides; i += run) {
-        run = topology_run(&t, i);
-        if (run > 1) continue;
         int end[2] = {t.side[i].low, t.side[i].high};
+        run = topology_run(&t, i);
+        sets_join(&r->cloth, end[0], end[1], false);
+        if (run > 1) continue;
         r->edge[r->n] = (Edge){{end[0], end[1]}};
         r->flat[r->n] = (Triangle){{end[0], end[1], end[1]}};
         r->inward[r->n] = inward(r->mesh, &t.side[i]);
         for (int k = 0; k < 2; k++)
             if (r->degree[end[k]]++ < 2) r->at[end[k]][r->degree[end[k]] - 1] = r->n;
-        sets_join(&sets, end[0], end[1], false);
+        sets_join(&r->piece, end[0], end[1], false);
         r->n++;
     }
-    for (int v = 0; v < n; v++) *pieces += r->degree[v] > 0 && sets_find(&sets, v, NULL) == v;
+    for (int v = 0; v < n; v++) *pieces += r->degree[v] > 0 && sets_find(&r->piece, v, NULL) == v;
     return boxtree_build(&r->tree, r->mesh->position, r->flat, NULL, r->n, arena, e);
+}
+
+/* Are two vertices of the border on different pieces of it, and yet on one cloth? */
+static bool are_two_hems(Rim *r, int a, int b) {
+    return sets_find(&r->piece, a, NULL) != sets_find(&r->piece, b, NULL) &&
+           sets_find(&r->cloth, a, NULL) == sets_find(&r->cloth, b, NULL);
 }
 
 /* Does the way along the border from `vertex`, setting out on edge k, come to `point` on the edge
@@ -89,7 +99,7 @@ static bool is_near_along(const Rim *r, int vertex, int goal, Vec3 point, double
 }
 
 /* Distance to the nearest edge that is near across and not along; `reach` if there is none. */
-static double crack_width(const Rim *r, int vertex, double reach, bool *found) {
+static double crack_width(Rim *r, int vertex, double reach, bool *found) {
     Vec3 p = r->mesh->position[vertex], out = vec(reach, reach, reach);
     BoxWalk walk = boxtree_walk(&r->tree, (Box){vec_sub(p, out), vec_add(p, out)});
     *found = false;
@@ -99,7 +109,8 @@ static double crack_width(const Rim *r, int vertex, double reach, bool *found) {
         Vec3 point = boxtree_triangle_point(p, a, b, b);
         double d = vec_dist(p, point);
         if (edge.v[0] == vertex || edge.v[1] == vertex || d > reach) continue;
-        if (is_same_side(r, vertex, k) || is_near_along(r, vertex, k, point, FOLD * d)) continue;
+        if (are_two_hems(r, vertex, edge.v[0]) || is_same_side(r, vertex, k)) continue;
+        if (is_near_along(r, vertex, k, point, FOLD * d)) continue;
         *found = true;
         reach = d;
     }
