@@ -406,6 +406,31 @@ static void arms_across_the_chest_crush_nothing(void) {
     arena_free(&c.scene.arena);
 }
 
+/* A long step, and legs apart to the sides as far. */
+static void cloth_climbs_between_legs_that_are_far_apart(void) {
+    Specimen c;
+    specimen_open(&c, "skirt", DETAIL, DEPTH);
+    Scene *s = &c.scene;
+    Vec3 *rest = ARENA_NEW(&s->arena, Vec3, c.lattice.nplaces, &s->error);
+    need(s, rest != NULL);
+    for (int place = 0; place < c.lattice.nplaces; place++) rest[place] = lattice_point(&c.lattice, c.root, place);
+    double most = 0;
+    for (int degrees = 0; degrees <= 60; degrees += 10) {
+        Pose step = figure_rest_pose(), straddle = step;
+        scene_leg(s, &step, true, degrees, 0);
+        scene_leg(s, &step, false, -degrees, 0);
+        for (int r = ROLE_LEFT_THIGH; r < ROLE_COUNT; r++) {
+            bool left = r < ROLE_RIGHT_THIGH;
+            Mat3 turn = mat_axis_angle(vec(0, 0, left ? 1 : -1), degrees * PI / 180);
+            Vec3 pivot = s->figure.start[left ? ROLE_LEFT_THIGH : ROLE_RIGHT_THIGH];
+            straddle.bone[r] = (Rigid){turn, vec_sub(pivot, mat_apply(turn, pivot))};
+        }
+        most = fmax(most, fmax(most_stretched(&c, &step, rest), most_stretched(&c, &straddle, rest)));
+    }
+    OK(most > 1.5 && most < 2.5, "between legs that are far apart a skirt is spread, to %.2f times its length", most);
+    arena_free(&s->arena);
+}
+
 int main(void) {
     static const int openings[NSHIPPED] = {2, 2, 3, 4};
     for (int k = 0; k < NSHIPPED; k++) {
@@ -423,6 +448,7 @@ int main(void) {
     folds_are_mitres();
     raised_arms_stretch_little();
     cloth_rides_up_round_the_seat();
+    cloth_climbs_between_legs_that_are_far_apart();
     arms_across_the_chest_crush_nothing();
     skirts_hold_wide_hips();
     rows_that_no_collide_names_keep_out_as_well();

@@ -23,6 +23,7 @@ typedef struct {
     double hip_height;                 /* of the hip joints in the canonical stance */
     Vec3 root;                         /* between the hip joints */
     Mat3 pelvis;
+    double last;                       /* metres below the hip joints: where the last ring is */
     double turn;                       /* radians: by how much the tube turns at the hips */
     double outside[2];                 /* metres, per x and z on the ring: how far outside the axis of that turn */
     Bend bend[2];                      /* left, right */

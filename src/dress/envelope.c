@@ -24,6 +24,9 @@ static const double LAP_LEAST_CM = 14, LAP_MOST_CM = 26; /* below the hip joints
 static const double TURNS_CM[2] = {-3, 10}; /* below the hip joints: where rings turn most */
 static const double CORNER_CM = 2;     /* width of the soft corners where the lap begins, and beside the outside */
 enum { RIDE_STEPS = 6 };
+static const double TIGHT = 1.1;       /* the last ring climbs if legs need more than so many times its size, */
+static const double CLIMBS = 0.4;      /* by no more than this share of its way from the hip joints, */
+static const double HALF_CLIMBS = 0.32; /* by half of that if they need so much more than TIGHT */
 /* Ranges of a hip's flexion, radians: over the first the front comes to hang, until the thigh is level; over the
    second it is gathered, as the thigh comes to the belly. Beyond the third a thigh that points up was certainly bent
    forwards. */
@@ -132,22 +135,6 @@ static Sym2 root_of(Sym2 c) {
 /* max(0, x) with a soft corner of width r. */
 static double soft_positive(double x, double r) { return 0.5 * (x + sqrt(x * x + r * r)); }
 
-/* The ellipse of a ring. (dx, dz): centre of the left leg in the ring's axes, the right one is opposite; rho: radius
-   of the legs; leg: what the plane cuts out of one. It holds both legs, and keeps the trace of the rest ellipse,
-   about its squared perimeter, as long as the legs leave cloth. share: 0 at the pelvis, where it is the rest
-   ellipse, 1 at the legs. */
-static Sym2 ring_ellipse(const Envelope *env, const FitRing *rest, double rho, double dx, double dz, Sym2 leg,
-                         double share) {
-    double cm = env->cm, depth = 0.5 * (rest->front + rest->back), apart = APART_CM * cm;
-    leg.xx += fmax(apart * apart - dx * dx, 0);
-    Sym2 need = hold_both(dx, dz, leg), calm = hold_both(env->rest_hip, 0, cut_leg(rho, 0, 0));
-    double nx = fmax(rest->side * rest->side - calm.xx, cm * cm), nz = fmax(depth * depth - calm.zz, cm * cm);
-    double spare = soft_positive(rest->side * rest->side + depth * depth - need.xx - need.zz, SPARE_CM2 * cm * cm);
-    double wx = spare * nx / (nx + nz), wz = spare * nz / (nx + nz);
-    return (Sym2){share * (need.xx + wx) + (1 - share) * rest->side * rest->side, share * need.xz,
-                  share * (need.zz + wz) + (1 - share) * depth * depth};
-}
-
 /* The axes of a ring as columns (left, up, front): those of the pelvis, turned so that down becomes t, by TURN_LIMIT at
    most. */
 static Mat3 ring_axes(const Envelope *env, Vec3 t) {
@@ -166,8 +153,17 @@ static Vec3 cut_path(const Envelope *env, Vec3 p, Vec3 t, Vec3 at, Vec3 n) {
     return vec_mad(p, t, clamp(vec_dot(vec_sub(at, p), n) / along, -most, most));
 }
 
-/* A point of the ring at s that turns with the legs. */
-static Vec3 turning_point(const Envelope *env, double s, double x, double z) {
+/* A ring that turns with the legs. */
+typedef struct {
+    double share;        /* 0 at the pelvis, 1 at the legs */
+    Vec3 left, front;    /* its axes, unit */
+    Vec3 middle;         /* between the legs in its plane */
+    FitRing rest;
+    double rho, dx, dz;  /* radius of the legs; the left one's centre in its axes, the right one is opposite */
+    Sym2 leg;            /* what the plane cuts out of one */
+} EnvelopeRing;
+
+static EnvelopeRing ring_at(const Envelope *env, double s) {
     double cm = env->cm, share = smoothstep(-ABOVE_CM * cm, BELOW_CM * cm, s);
     Vec3 tangent[2], path[2];
     for (int leg = 0; leg < 2; leg++) path[leg] = leg_path(env, leg, s, &tangent[leg]);
@@ -181,11 +177,48 @@ static Vec3 turning_point(const Envelope *env, double s, double x, double z) {
     Vec3 half = vec_scale(vec_sub(path[0], path[1]), 0.5), slant = vec_scale(vec_sub(tangent[0], tangent[1]), 0.5);
     /* Half the difference of front and back moves the ring's centre off the legs; half of that adds to their room. */
     double rho = leg_radius(env, s) + LEG_ROOM_CM * cm + 0.25 * fabs(rest.front - rest.back);
-    Sym2 leg = cut_leg(rho, vec_dot(slant, ax), vec_dot(slant, az));
-    Sym2 m = root_of(ring_ellipse(env, &rest, rho, vec_dot(half, ax), vec_dot(half, az), leg, share));
-    Vec3 centre = vec_lerp(vec_mad(env->root, env->down, s), vec_mid(path[0], path[1]), share);
-    centre = vec_mad(centre, az, rest.z + 0.5 * (rest.front - rest.back));
-    return vec_mad(vec_mad(centre, ax, m.xx * x + m.xz * z), az, m.xz * x + m.zz * z);
+    return (EnvelopeRing){.share = share,
+                          .left = ax,
+                          .front = az,
+                          .middle = vec_mid(path[0], path[1]),
+                          .rest = rest,
+                          .rho = rho,
+                          .dx = vec_dot(half, ax),
+                          .dz = vec_dot(half, az),
+                          .leg = cut_leg(rho, vec_dot(slant, ax), vec_dot(slant, az))};
+}
+
+/* The ellipse of a ring. It holds both legs, and keeps the trace of the rest ellipse, about its squared perimeter, as
+   long as the legs leave cloth. At the pelvis it is the rest ellipse. */
+static Sym2 ring_ellipse(const Envelope *env, const EnvelopeRing *r) {
+    double cm = env->cm, side = r->rest.side, depth = 0.5 * (r->rest.front + r->rest.back), apart = APART_CM * cm;
+    Sym2 leg = r->leg, calm = hold_both(env->rest_hip, 0, cut_leg(r->rho, 0, 0));
+    leg.xx += fmax(apart * apart - r->dx * r->dx, 0);
+    Sym2 need = hold_both(r->dx, r->dz, leg);
+    double nx = fmax(side * side - calm.xx, cm * cm), nz = fmax(depth * depth - calm.zz, cm * cm);
+    double spare = soft_positive(side * side + depth * depth - need.xx - need.zz, SPARE_CM2 * cm * cm);
+    double wx = spare * nx / (nx + nz), wz = spare * nz / (nx + nz);
+    return (Sym2){r->share * (need.xx + wx) + (1 - r->share) * side * side, r->share * need.xz,
+                  r->share * (need.zz + wz) + (1 - r->share) * depth * depth};
+}
+
+/* A point of the ring at s that turns with the legs. */
+static Vec3 turning_point(const Envelope *env, double s, double x, double z) {
+    EnvelopeRing r = ring_at(env, s);
+    Sym2 m = root_of(ring_ellipse(env, &r));
+    Vec3 centre = vec_lerp(vec_mad(env->root, env->down, s), r.middle, r.share);
+    centre = vec_mad(centre, r.front, r.rest.z + 0.5 * (r.rest.front - r.rest.back));
+    return vec_mad(vec_mad(centre, r.left, m.xx * x + m.xz * z), r.front, m.xz * x + m.zz * z);
+}
+
+/* Where the last ring is, s. Legs that are far apart do not find room in it farther down: then the cloth climbs. */
+static double climbed(const Envelope *env) {
+    double end = envelope_place(env, env->fit->garment->nrings - 1);
+    EnvelopeRing r = ring_at(env, end);
+    double depth = 0.5 * (r.rest.front + r.rest.back), cloth = r.rest.side * r.rest.side + depth * depth;
+    Sym2 need = hold_both(r.dx, r.dz, r.leg);
+    double over = fmax(sqrt((need.xx + need.zz) / cloth) - TIGHT, 0);
+    return end - CLIMBS * end * over * over / (over * over + HALF_CLIMBS * HALF_CLIMBS);
 }
 
 /* The same point of the ring at rest, moved rigidly with the pelvis. */
@@ -212,11 +245,11 @@ static double before_step(double a, double b, double rise, double y) {
 /* Round the outside of a bent hip the way is longer than the cloth, round the seat of who sits by half its length. If
    only the two rings next to the hip made up for that, they would be far apart, and the cloth between them would take a
    short cut through the seat. So cloth rides up there: it is spread evenly over the whole way between the first ring
-   and the last, which stay where they are. Returns the s of the body at which cloth of s lies. */
+   and the last, which stay where they are for that. Returns the s of the body at which cloth of s lies. */
 static double ridden_up(const Envelope *env, double s, double x, double z) {
     double outside = soft_positive(x * env->outside[0] + z * env->outside[1], CORNER_CM * env->cm);
     double top = envelope_place(env, 0), end = envelope_place(env, env->fit->garment->nrings - 1);
-    double longer = env->turn * outside, evenly = s + longer * (s - top) / (end - top);
+    double longer = env->turn * outside, evenly = s + (env->last - end + longer) * (s - top) / (end - top);
     return before_step(TURNS_CM[0] * env->cm, TURNS_CM[1] * env->cm, longer, evenly);
 }
 
@@ -293,5 +326,6 @@ void envelope_pose(Envelope *env, const Fit *fit, const Figure *figure, const Bo
     env->hip_height = figure->start[ROLE_LEFT_THIGH].y;
     Vec3 mean = vec_unit_or(vec_add(env->thigh[0], env->thigh[1]), env->down);
     bend_outside(env, mean);
+    env->last = climbed(env);
     for (int leg = 0; leg < 2; leg++) env->bend[leg] = bend_of(env, env->thigh[leg], mean);
 }

@@ -167,11 +167,21 @@ static void straighten_handles(Follower *f) {
         }
 }
 
+/* The derivative down the body of the envelope at s, at a control point of the unit circle. Where rings turn fast, as
+   before a bent knee, it is longer than the cloth that leads there, which would swing out with it; so it is held. */
+static Vec3 envelope_slope(const Envelope *env, double s, const double unit[2]) {
+    static const double STEEPEST = 1.8;
+    double step = env->cm;
+    Vec3 above = envelope_point(env, s - step, unit[0], unit[1]);
+    Vec3 below = envelope_point(env, s + step, unit[0], unit[1]);
+    Vec3 slope = vec_scale(vec_sub(below, above), 0.5 / step);
+    return vec_scale(slope, STEEPEST / fmax(vec_len(slope), STEEPEST));
+}
+
 static void curves_by_envelope(Follower *f, const Pose *pose) {
     const Fit *fit = f->fit;
     Envelope env;
     envelope_pose(&env, fit, f->figure, f->body, pose);
-    double step = env.cm;
     for (int c = 0; c < fit->ncurves; c++) {
         const FitCurve *curve = &fit->curve[c];
         double s = envelope_place(&env, curve->ring);
@@ -181,11 +191,8 @@ static void curves_by_envelope(Follower *f, const Pose *pose) {
         for (int r = 0; r < fit->panel[p].nrows; r++) {
             const FitCurve *curve = &fit->curve[fit->panel[p].curve[r]];
             double s = envelope_place(&env, curve->ring);
-            for (int k = 0; k < 4; k++) {
-                Vec3 above = envelope_point(&env, s - step, curve->unit[k][0], curve->unit[k][1]);
-                Vec3 below = envelope_point(&env, s + step, curve->unit[k][0], curve->unit[k][1]);
-                f->slope[p][r][0][k] = f->slope[p][r][1][k] = vec_scale(vec_sub(below, above), 0.5 / step);
-            }
+            for (int k = 0; k < 4; k++)
+                f->slope[p][r][0][k] = f->slope[p][r][1][k] = envelope_slope(&env, s, curve->unit[k]);
         }
     straighten_handles(f);
 }
