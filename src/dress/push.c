@@ -272,8 +272,8 @@ static double take_back(Push *p, PushSample *s, double weight[][4], double clear
 }
 
 /* Pushes one sample out of the parts that it is too near to. A part that was far enough is not asked again until the
-   sample has moved by the difference, unless it gives way and was not asked yet. Returns the largest violation that was
-   acted on, in metres. */
+   sample has moved by the difference; but one that gives way, once asked, is asked each time, for how far it does may
+   change at once in a fold. Returns the largest violation that was acted on, in metres. */
 static double push_sample(Push *p, PushSample *s, PushResult *result) {
     const BodyFrame *body = p->body;
     if (s->budget >= 0 && is_pinched(p, s)) return 0;
