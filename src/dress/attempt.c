@@ -14,7 +14,7 @@ static const double HOPELESS = 0.045; /* findings per edge of the mesh: more are
 static const double HEADWAY = 0.7;   /* an attempt ends if more of the bad vertices is left after SOLVE_EVERY rounds */
 static const double RAISE = 0.002;   /* clearance added to a bad vertex in a round, metres on 1.70 m */
 enum { FLAT_ROUNDS = 4, FLAT_MOST = 256 }; /* of raising flat facets: rounds, and vertices moved in each */
-static const double FLAT = 5e-6;     /* metres: least height of a facet */
+static const double FLAT = 5e-6;     /* least height of a facet, metres on 1.70 m */
 
 bool cloth_reserve(Cloth *c, const Fit *fit, const Lattice *lattice, Arena *arena, Error *e) {
     *c = (Cloth){.fit = fit};
@@ -135,10 +135,10 @@ Outcome attempt_rest(Cloth *c, const BodyFrame *body, FrameStats *stats) {
 /* A facet that folds over is flat for a moment: then rounding to the precision of the text would leave no area, or
    put a vertex on the side of another facet. So one of its corners is moved by some hundredths of a millimetre. */
 Wrong attempt_raise_flat(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *stats) {
-    double start = clock_seconds();
+    double start = clock_seconds(), least = FLAT * c->push.field.scale * body->unit;
     for (int round = 0; round < FLAT_ROUNDS; round++) {
-        int aside[FLAT_MOST], n = flat_find(c->position, c->sheet.triangle, c->sheet.ntriangles, FLAT * body->unit,
-                                            round, aside, c->moved, FLAT_MOST);
+        int aside[FLAT_MOST], n = flat_find(c->position, c->sheet.triangle, c->sheet.ntriangles, least, round, aside,
+                                            c->moved, FLAT_MOST);
         if (n == 0) break;
         for (int k = 0; k < n; k++) c->moved[k] = mesh_snap_point(c->moved[k]);
         w = tester_again(&c->tester, body, aside, c->moved, n, NULL, w);
