@@ -411,9 +411,7 @@ static void cloth_climbs_between_legs_that_are_far_apart(void) {
     Specimen c;
     specimen_open(&c, "skirt", DETAIL, DEPTH);
     Scene *s = &c.scene;
-    Vec3 *rest = ARENA_NEW(&s->arena, Vec3, c.lattice.nplaces, &s->error);
-    need(s, rest != NULL);
-    for (int place = 0; place < c.lattice.nplaces; place++) rest[place] = lattice_point(&c.lattice, c.root, place);
+    Vec3 *rest = places_now(&c);
     double most = 0;
     for (int degrees = 0; degrees <= 60; degrees += 10) {
         Pose step = figure_rest_pose(), straddle = step;

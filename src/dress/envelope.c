@@ -61,6 +61,9 @@ static Vec3 leg_path(const Envelope *env, int leg, double s, Vec3 *tangent) {
     return p;
 }
 
+/* Half the way through a ring from front to back. */
+static double mean_depth(const FitRing *r) { return 0.5 * (r->front + r->back); }
+
 /* Rest size of the tube at s: a Catmull-Rom spline through the rings' sizes, straight beyond the first and the last.
    All values are the same weighted sum of four rings. */
 static FitRing rest_size(const Envelope *env, double s) {
@@ -191,7 +194,7 @@ static EnvelopeRing ring_at(const Envelope *env, double s) {
 /* The ellipse of a ring. It holds both legs, and keeps the trace of the rest ellipse, about its squared perimeter, as
    long as the legs leave cloth. At the pelvis it is the rest ellipse. */
 static Sym2 ring_ellipse(const Envelope *env, const EnvelopeRing *r) {
-    double cm = env->cm, side = r->rest.side, depth = 0.5 * (r->rest.front + r->rest.back), apart = APART_CM * cm;
+    double cm = env->cm, side = r->rest.side, depth = mean_depth(&r->rest), apart = APART_CM * cm;
     Sym2 leg = r->leg, calm = hold_both(env->rest_hip, 0, cut_leg(r->rho, 0, 0));
     leg.xx += fmax(apart * apart - r->dx * r->dx, 0);
     Sym2 need = hold_both(r->dx, r->dz, leg);
@@ -215,7 +218,7 @@ static Vec3 turning_point(const Envelope *env, double s, double x, double z) {
 static double climbed(const Envelope *env) {
     double end = envelope_place(env, env->fit->garment->nrings - 1);
     EnvelopeRing r = ring_at(env, end);
-    double depth = 0.5 * (r.rest.front + r.rest.back), cloth = r.rest.side * r.rest.side + depth * depth;
+    double depth = mean_depth(&r.rest), cloth = r.rest.side * r.rest.side + depth * depth;
     Sym2 need = hold_both(r.dx, r.dz, r.leg);
     double over = fmax(sqrt((need.xx + need.zz) / cloth) - TIGHT, 0);
     return end - CLIMBS * end * over * over / (over * over + HALF_CLIMBS * HALF_CLIMBS);
@@ -224,7 +227,7 @@ static double climbed(const Envelope *env) {
 /* The same point of the ring at rest, moved rigidly with the pelvis. */
 static Vec3 pelvis_point(const Envelope *env, double s, double x, double z) {
     FitRing rest = rest_size(env, s);
-    double depth = 0.5 * (rest.front + rest.back);
+    double depth = mean_depth(&rest);
     Vec3 p = vec(rest.side * x, -s, rest.z + 0.5 * (rest.front - rest.back) + depth * z);
     return vec_add(env->root, mat_apply(env->pelvis, p));
 }
@@ -304,7 +307,7 @@ static void bend_outside(Envelope *env, Vec3 mean) {
     FitRing rest = rest_size(env, 0);
     env->turn = fmin(acos(down), TURN_LIMIT);
     env->outside[0] = -rest.side * vec_dot(mat_column(env->pelvis, 0), inwards);
-    env->outside[1] = -0.5 * (rest.front + rest.back) * vec_dot(mat_column(env->pelvis, 2), inwards);
+    env->outside[1] = -mean_depth(&rest) * vec_dot(mat_column(env->pelvis, 2), inwards);
 }
 
 void envelope_pose(Envelope *env, const Fit *fit, const Figure *figure, const Body *body, const Pose *pose) {
