@@ -379,6 +379,30 @@ static void cloth_rides_up_round_the_seat(void) {
     arena_free(&s->arena);
 }
 
+/* A thigh that comes to the belly and beyond, the other one less. */
+static void waists_stay_between_belly_and_thigh(void) {
+    Specimen c;
+    specimen_open(&c, "skirt", DETAIL, DEPTH);
+    Scene *s = &c.scene;
+    double deepest = 0;
+    for (int left = 90; left <= 150; left += 15)
+        for (int right = 0; right <= 90; right += 45) {
+            Pose pose = figure_rest_pose();
+            scene_leg(s, &pose, true, left, left);
+            scene_leg(s, &pose, false, right, right);
+            body_frame_pose(&s->posed, &pose);
+            follow_pose(&c.follower, &pose, c.root);
+            for (int place = 0; place < c.lattice.nplaces; place++) {
+                if (c.fit.patch[c.lattice.owner[place].patch].row > 0) continue;
+                Vec3 at = lattice_point(&c.lattice, c.root, place);
+                int thigh = s->body.of_role[ROLE_LEFT_THIGH];
+                deepest = fmax(deepest, -body_frame_distance(&s->posed, thigh, at, 0, NULL));
+            }
+        }
+    OK(deepest < 0.035, "between belly and thigh a skirt's waist goes %.0f mm through the thigh", 1e3 * deepest);
+    arena_free(&s->arena);
+}
+
 /* The least distance from the left shoulder, in its bind pose's, of what is bound to chest and left upper arm. */
 static double nearest_to_shoulder(Specimen *c, const Pose *pose) {
     const Follower *f = &c->follower;
@@ -446,6 +470,7 @@ int main(void) {
     folds_are_mitres();
     raised_arms_stretch_little();
     cloth_rides_up_round_the_seat();
+    waists_stay_between_belly_and_thigh();
     cloth_climbs_between_legs_that_are_far_apart();
     arms_across_the_chest_crush_nothing();
     skirts_hold_wide_hips();

@@ -27,4 +27,8 @@ CreaseSide crease_side_of_both(CreaseSide a, CreaseSide b);
    if they are on one side, do not lie beyond the fold's plane where the flesh of the other side is. World, metres. */
 void crease_keep(const Body *body, const Pose *pose, const Fold *fold, CreaseSide start, CreaseSide end, Vec3 curve[4]);
 
+/* The same for a curve that goes round half of the trunk, past both hips, and is on one side of the fold: at a third
+   and at two thirds of it, where the thighs are. Its ends stay where they are. */
+void crease_keep_between(const Body *body, const Pose *pose, const Fold *fold, CreaseSide side, Vec3 curve[4]);
+
 #endif

@@ -5,6 +5,7 @@
 #include "dress/crease.h"
 
 #include "dress/yield.h"
+#include "geometry/bezier.h"
 
 static const double OWN = 0.25;   /* a point that follows the other side by no more than this belongs to the one, */
 static const double APART = 0.5;  /* and one that follows other limbs by more to neither side of a hip */
@@ -88,4 +89,17 @@ void crease_keep(const Body *body, const Pose *pose, const Fold *fold, CreaseSid
     Vec3 middle = vec_mad(vec_scale(vec_add(curve[0], curve[3]), 0.125), vec_add(curve[1], curve[2]), 0.375);
     Vec3 way = way_back(body, pose, fold, crease_side_of_both(start, end), middle);
     for (int k = 1; k < 3; k++) curve[k] = vec_mad(curve[k], way, 4.0 / 3);
+}
+
+/* The ways of both thirds determine the inner control points. They are followed by four fifths: the middle, where there
+   is no thigh, goes farther than the thirds. */
+void crease_keep_between(const Body *body, const Pose *pose, const Fold *fold, CreaseSide side, Vec3 curve[4]) {
+    static const double SHARE = 0.8;
+    Vec3 way[2];
+    for (int k = 0; k < 2; k++) {
+        double b[4];
+        bezier_basis((k + 1) / 3.0, b, NULL);
+        way[k] = vec_scale(way_back(body, pose, fold, side, bezier_cubic(curve, b)), SHARE);
+    }
+    for (int k = 0; k < 2; k++) curve[1 + k] = vec_mad(vec_mad(curve[1 + k], way[k], 3), way[1 - k], -1.5);
 }

@@ -69,12 +69,27 @@ static CreaseSide side_of_node(const Follower *f, const Fold *fold, int curve, i
     return crease_side(fold, &f->fit->node[f->fit->curve[curve].node[end]].binding);
 }
 
-/* A curve of a ring stays on its side of all folds. */
-static void keep_curve(Follower *f, const Pose *pose, int curve) {
-    for (const Fold *fold = f->folds.fold; fold < f->folds.fold + FOLDS; fold++)
-        if (fold->closed > 0)
-            crease_keep(f->body, pose, fold, side_of_node(f, fold, curve, 0), side_of_node(f, fold, curve, 1),
-                        f->curve[curve]);
+/* Of the envelope, the rings that stand above the hip joints belong to the trunk. The others go round both legs. */
+static CreaseSide side_of_ring(const Follower *f, const Fold *fold, int curve) {
+    bool is_above = f->fit->ring[f->fit->curve[curve].ring].y > f->figure->start[ROLE_LEFT_THIGH].y;
+    return is_above && fold_has_above(fold, ROLE_PELVIS) ? CREASE_ABOVE : CREASE_APART;
+}
+
+/* A curve of the cloth stays on its side of all folds. above, below: the curves of rings between which it lies, or
+   twice the one that it is. */
+static void keep_curve(const Follower *f, const Pose *pose, int above, int below, Vec3 curve[4]) {
+    for (const Fold *fold = f->folds.fold; fold < f->folds.fold + FOLDS; fold++) {
+        if (fold->closed <= 0) continue;
+        CreaseSide side[2];
+        if (f->fit->garment->follow == FOLLOW_ENVELOPE) {
+            side[0] = crease_side_of_both(side_of_ring(f, fold, above), side_of_ring(f, fold, below));
+            crease_keep_between(f->body, pose, fold, side[0], curve);
+            continue;
+        }
+        for (int end = 0; end < 2; end++)
+            side[end] = crease_side_of_both(side_of_node(f, fold, above, end), side_of_node(f, fold, below, end));
+        crease_keep(f->body, pose, fold, side[0], side[1], curve);
+    }
 }
 
 static void curves_by_bones(Follower *f, const Pose *pose) {
@@ -92,7 +107,7 @@ static void curves_by_bones(Follower *f, const Pose *pose) {
             f->curve[c][1 + end] =
                 curve->middle.n ? shaped_handle(&b, curve, end, at) : vec_add(at, mat_apply(g.r, handle));
         }
-        keep_curve(f, pose, c);
+        keep_curve(f, pose, c, c, f->curve[c]);
     }
 }
 
@@ -195,6 +210,8 @@ static void curves_by_envelope(Follower *f, const Pose *pose) {
                 f->slope[p][r][0][k] = f->slope[p][r][1][k] = envelope_slope(&env, s, curve->unit[k]);
         }
     straighten_handles(f);
+    f->folds = folds_find(f->body, pose);
+    for (int c = 0; c < fit->ncurves; c++) keep_curve(f, pose, c, c, f->curve[c]);
 }
 
 /* Parameter length from row r to the next: of an envelope the arc length down the body, by which its slopes are
@@ -217,17 +234,11 @@ static void loft(const Follower *f, const FitPatch *patch, Patch *out) {
 /* What a panel has between two rings stays on its side of all folds, as the rings do. */
 static void keep_patch(const Follower *f, const Pose *pose, const FitPatch *patch, Patch *p) {
     const int *row = &f->fit->panel[patch->panel].curve[patch->row];
-    for (const Fold *fold = f->folds.fold; fold < f->folds.fold + FOLDS; fold++) {
-        if (fold->closed <= 0) continue;
-        CreaseSide side[2];
-        for (int end = 0; end < 2; end++)
-            side[end] = crease_side_of_both(side_of_node(f, fold, row[0], end), side_of_node(f, fold, row[1], end));
-        for (int between = 1; between < 3; between++) {
-            Vec3 curve[4];
-            for (int k = 0; k < 4; k++) curve[k] = p->p[k][between];
-            crease_keep(f->body, pose, fold, side[0], side[1], curve);
-            for (int k = 0; k < 4; k++) p->p[k][between] = curve[k];
-        }
+    for (int between = 1; between < 3; between++) {
+        Vec3 curve[4];
+        for (int k = 0; k < 4; k++) curve[k] = p->p[k][between];
+        keep_curve(f, pose, row[0], row[1], curve);
+        for (int k = 0; k < 4; k++) p->p[k][between] = curve[k];
     }
 }
 
@@ -258,6 +269,6 @@ void follow_pose(Follower *f, const Pose *pose, Patch *out) {
             continue;
         }
         loft(f, &fit->patch[p], &out[p]);
-        if (!by_envelope) keep_patch(f, pose, &fit->patch[p], &out[p]);
+        keep_patch(f, pose, &fit->patch[p], &out[p]);
     }
 }
