@@ -60,15 +60,11 @@ static double show_jump(Show *w) {
     return worst;
 }
 
-/* How far the last frame's vertices are off the surface, but for those amid facets beside finer ones. */
+/* How far the last frame's vertices are off the surface. */
 static double show_off(Show *w) {
     const Sheet *sheet = &w->cloth.sheet;
     double worst = 0;
-    for (int v = 0, lone = 0; v < sheet->nvertices; v++) {
-        if (lone < sheet->nlone && v == sheet->lone[lone]) {
-            lone++;
-            continue;
-        }
+    for (int v = 0; v < sheet->nvertices; v++) {
         Vec3 on = lattice_point(&w->cloth.lattice, w->cloth.root, sheet->place[v]);
         worst = fmax(worst, vec_dist(on, w->point[!(w->frame % 2)][v]));
     }

@@ -67,6 +67,19 @@ static void share_out(const Morph *m, LatticeCell c, int level) {
         }
 }
 
+/* The share of a vertex that is new on a grid. In the middle of a facet it has the largest of the facet's sides: so the
+   middles that facets get beside a finer cell open and close with that. */
+static float share_at(const Morph *m, int place, LatticeIndex at, int di, int dj) {
+    float share = m->share[place];
+    if (!di || !dj) return share;
+    const int side[4][2] = {{di, 0}, {-di, 0}, {0, dj}, {0, -dj}};
+    for (int k = 0; k < 4; k++) {
+        float other = m->share[lattice_place(m->lattice, at.patch, at.i + side[k][0], at.j + side[k][1])];
+        if (share < other) share = other;
+    }
+    return share;
+}
+
 /* Moves a vertex towards the middle of the two that it is between, if it is new on the grid whose neighbours are `step`
    places apart. */
 static void move_vertex(const Morph *m, const Sheet *sheet, int v, int step, Vec3 *point) {
@@ -74,7 +87,7 @@ static void move_vertex(const Morph *m, const Sheet *sheet, int v, int step, Vec
     LatticeIndex at = l->owner[sheet->place[v]];
     int di = at.i & step, dj = at.j & step;
     if (di + dj == 0 || ((at.i | at.j) & (step - 1))) return; /* on a coarser grid, or a finer one */
-    double share = smoothstep(0, 1, m->share[sheet->place[v]]);
+    double share = smoothstep(0, 1, share_at(m, sheet->place[v], at, di, dj));
     int before = sheet->vertex[lattice_place(l, at.patch, at.i - di, at.j - dj)];
     int after = sheet->vertex[lattice_place(l, at.patch, at.i + di, at.j + dj)];
     if (share < 1 && before >= 0 && after >= 0)
@@ -83,7 +96,7 @@ static void move_vertex(const Morph *m, const Sheet *sheet, int v, int step, Vec
 
 void morph_points(const Morph *m, const Sheet *sheet, Vec3 *point) {
     const Lattice *l = m->lattice;
-    if (is_open(m, sheet) && sheet->nlone == 0) return;
+    if (is_open(m, sheet)) return;
     memset(m->share, 0, (size_t)l->nplaces * sizeof *m->share);
     for (int level = 0; level < l->depth; level++)
         for (int k = 0; k < ncells(l, level); k++)
