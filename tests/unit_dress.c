@@ -379,6 +379,27 @@ static void cloth_rides_up_round_the_seat(void) {
     arena_free(&s->arena);
 }
 
+/* One leg stands, the other one is raised, forwards and outwards. */
+static void trousers_ride_up_a_raised_thigh(void) {
+    Specimen c;
+    specimen_open(&c, "trousers", DETAIL, DEPTH);
+    Scene *s = &c.scene;
+    Vec3 *rest = places_now(&c);
+    double most = 0;
+    for (int degrees = 0; degrees <= 90; degrees += 10)
+        for (int out = 0; out <= 60; out += 30) {
+            Pose pose = figure_rest_pose();
+            scene_leg(s, &pose, true, degrees, degrees);
+            Mat3 turn = mat_axis_angle(vec(0, 1, 0), out * PI / 180);
+            Vec3 pivot = s->figure.start[ROLE_LEFT_THIGH];
+            Rigid about = {turn, vec_sub(pivot, mat_apply(turn, pivot))};
+            for (int r = ROLE_LEFT_THIGH; r < ROLE_RIGHT_THIGH; r++) pose.bone[r] = rigid_mul(about, pose.bone[r]);
+            most = fmax(most, most_stretched(&c, &pose, rest));
+        }
+    OK(most > 1.5 && most < 2.2, "between crotch and raised thigh trousers are stretched to %.2f times", most);
+    arena_free(&s->arena);
+}
+
 /* A thigh that comes to the belly and beyond, the other one less. */
 static void waists_stay_between_belly_and_thigh(void) {
     Specimen c;
@@ -471,6 +492,7 @@ int main(void) {
     raised_arms_stretch_little();
     cloth_rides_up_round_the_seat();
     waists_stay_between_belly_and_thigh();
+    trousers_ride_up_a_raised_thigh();
     cloth_climbs_between_legs_that_are_far_apart();
     arms_across_the_chest_crush_nothing();
     skirts_hold_wide_hips();

@@ -12,6 +12,7 @@ typedef struct {
     const Body *body;
     Folds folds;                         /* of this pose */
     Vec3 (*curve)[4];                    /* control points of every curve in this pose */
+    double *up;                          /* per node: how far it rides up a thigh, metres */
     Vec3 (*slope)[GARMENT_ROWS_MAX][2][4]; /* per panel and row: derivatives across the rows at the curve's control
                                               points, for the patch above the row and for the one below */
     int (*column)[GARMENT_ROWS_MAX][2];    /* per panel and row, at start and end: number of the column from there to

@@ -12,6 +12,7 @@
 #include "dress/blend.h"
 #include "dress/crease.h"
 #include "dress/envelope.h"
+#include "dress/ride.h"
 
 static int column_end(const Fit *fit, int panel, int row, int end) {
     return fit->curve[fit->panel[panel].curve[row]].node[end];
@@ -45,12 +46,14 @@ bool follow_reserve(Follower *f, const Fit *fit, const Figure *figure, const Bod
     *f = (Follower){.fit = fit, .figure = figure, .body = body};
     size_t columns = 2 * GARMENT_ROWS_MAX * (size_t)fit->npanels;
     f->curve = arena_array(arena, (size_t)fit->ncurves, sizeof *f->curve, e);
+    f->up = ARENA_NEW(arena, double, fit->nnodes, e);
     f->slope = arena_array(arena, (size_t)fit->npanels, sizeof *f->slope, e);
     f->column = arena_array(arena, (size_t)fit->npanels, sizeof *f->column, e);
     f->column_slope = arena_array(arena, columns, sizeof *f->column_slope, e);
     f->column_length = arena_array(arena, columns, sizeof *f->column_length, e);
     f->column_uses = ARENA_NEW(arena, int, columns, e);
-    if (!f->curve || !f->slope || !f->column || !f->column_slope || !f->column_length || !f->column_uses) return false;
+    if (!f->curve || !f->up || !f->slope || !f->column || !f->column_slope || !f->column_length || !f->column_uses)
+        return false;
     number_columns(f);
     return true;
 }
@@ -107,8 +110,9 @@ static void curves_by_bones(Follower *f, const Pose *pose) {
             f->curve[c][1 + end] =
                 curve->middle.n ? shaped_handle(&b, curve, end, at) : vec_add(at, mat_apply(g.r, handle));
         }
-        keep_curve(f, pose, c, c, f->curve[c]);
     }
+    ride_up(f->fit, f->figure, pose, f->curve, f->up);
+    for (int c = 0; c < f->fit->ncurves; c++) keep_curve(f, pose, c, c, f->curve[c]);
 }
 
 /* Derivatives across the rows at row r by the parabola through three rows (Bessel), at the first
