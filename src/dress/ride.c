@@ -1,6 +1,6 @@
-/* From the seat and the crotch to the middle of a thigh that is bent far or spread, the way is up to twice as long as at
-   rest, and the next rows, along the thigh, are as long as ever. If the nodes between them stayed where they are on the
-   thigh, one row alone would be stretched. So they share it. */
+/* From the crotch to the middle of a thigh that is bent far or spread, the way is up to twice as long as at rest, and
+   the next row, along the thigh, is as long as ever. If the nodes between them stayed where they are on the thigh, one
+   row alone would be stretched. So they share it. */
 #include "dress/ride.h"
 
 static const double STRETCHED = 1.5; /* times its length at rest: a row that is longer draws the next one up, */

@@ -1,0 +1,194 @@
+/* The global shape of the shipped garments on the reference figure, in made poses. */
+#include "specimen.h"
+
+enum { DETAIL = 4, DEPTH = 2 };
+
+/* The hem before a thigh that is raised by a right angle, bound half to it and half to the pelvis, lies as far before
+   the one as before the other: along the line between them at root two times its distance. */
+static void folds_are_mitres(void) {
+    Scene s;
+    Fit fit;
+    Follower follower;
+    static Patch root[GARMENT_PANELS_MAX];
+    scene_open(&s, "tshirt");
+    s.garment->ring[0].binding[STATION_FRONT] = (Binding){2, {ROLE_PELVIS, ROLE_LEFT_THIGH}, {0.5, 0.5}};
+    need(&s, fit_garment(s.garment, &s.figure, &s.body, &s.arena, &fit, &s.error));
+    need(&s, follow_reserve(&follower, &fit, &s.figure, &s.body, &s.arena, &s.error));
+    Pose pose = figure_rest_pose();
+    Vec3 joint = s.figure.start[ROLE_LEFT_THIGH], line = vec_scale(vec(0, 1, 1), sqrt(0.5));
+    follow_pose(&follower, &pose, root);
+    Vec3 turned = mat_apply(mat_axis_angle(vec(-1, 0, 0), PI / 4), vec_sub(root[0].p[3][0], joint));
+    scene_leg(&s, &pose, true, 90, 0);
+    follow_pose(&follower, &pose, root);
+    Vec3 wanted = vec_mad(turned, line, (sqrt(2) - 1) * vec_dot(turned, line));
+    double off = vec_dist(wanted, vec_sub(root[0].p[3][0], joint));
+    OK(vec_dot(turned, line) > 0.1 && off < 1e-9, "in the fold of a hip cloth is where both sides meet (%g m off)",
+       off);
+    arena_free(&s.arena);
+}
+
+/* Where all places of the lattice are in the pose that was followed last. In the scene's arena. */
+static Vec3 *places_now(Specimen *c) {
+    Vec3 *at = ARENA_NEW(&c->scene.arena, Vec3, c->lattice.nplaces, &c->scene.error);
+    need(&c->scene, at != NULL);
+    for (int place = 0; place < c->lattice.nplaces; place++) at[place] = lattice_point(&c->lattice, c->root, place);
+    return at;
+}
+
+/* The most by which an edge of the sheet is longer in the global shape of a pose than in the bind pose. */
+static double most_stretched(Specimen *c, const Pose *pose, Vec3 *rest) {
+    double most = 0;
+    follow_pose(&c->follower, pose, c->root);
+    for (int k = 0; k < c->sheet.nedges; k++) {
+        int a = c->sheet.place[c->sheet.edge[k].v[0]], b = c->sheet.place[c->sheet.edge[k].v[1]];
+        double now = vec_dist(lattice_point(&c->lattice, c->root, a), lattice_point(&c->lattice, c->root, b));
+        most = fmax(most, now / vec_dist(rest[a], rest[b]));
+    }
+    return most;
+}
+
+/* The left arm from where it hangs until it points straight up. */
+static void raised_arms_stretch_little(void) {
+    Specimen c;
+    specimen_open(&c, "tshirt", DETAIL, DEPTH);
+    Scene *s = &c.scene;
+    Vec3 *rest = places_now(&c);
+    double most = 0;
+    for (int degrees = -135; degrees <= 45; degrees += 15) {
+        Pose pose = scene_reaching(s, degrees);
+        most = fmax(most, most_stretched(&c, &pose, rest));
+    }
+    OK(most > 1.5 && most < 2.5, "below a raised arm cloth is spanned, to %.2f times its length", most);
+    arena_free(&s->arena);
+}
+
+/* Hips bent until the thighs are at the belly, both alike or one less than the other. */
+static void cloth_rides_up_round_the_seat(void) {
+    Specimen c;
+    specimen_open(&c, "skirt", DETAIL, DEPTH);
+    Scene *s = &c.scene;
+    Vec3 *rest = places_now(&c);
+    double most = 0, deepest = 0;
+    for (int left = 0; left <= 120; left += 15)
+        for (int less = 0; less <= 30; less += 30) {
+            Pose pose = figure_rest_pose();
+            scene_leg(s, &pose, true, left, left);
+            scene_leg(s, &pose, false, left - less, left);
+            most = fmax(most, most_stretched(&c, &pose, rest));
+            body_frame_pose(&s->posed, &pose);
+            for (int place = 0; place < c.lattice.nplaces; place++) {
+                Vec3 at = lattice_point(&c.lattice, c.root, place);
+                int pelvis = s->body.of_role[ROLE_PELVIS];
+                deepest = fmax(deepest, -body_frame_distance(&s->posed, pelvis, at, 0, NULL));
+            }
+        }
+    OK(most > 1.5 && most < 1.95, "round the seat of who sits a skirt is spread, to %.2f times its length", most);
+    OK(deepest < 0.005, "and goes no deeper through it than %.0f mm before it is pushed", 1e3 * deepest);
+    arena_free(&s->arena);
+}
+
+/* One leg stands, the other one is raised, forwards and outwards. */
+static void trousers_ride_up_a_raised_thigh(void) {
+    Specimen c;
+    specimen_open(&c, "trousers", DETAIL, DEPTH);
+    Scene *s = &c.scene;
+    Vec3 *rest = places_now(&c);
+    double most = 0;
+    for (int degrees = 0; degrees <= 90; degrees += 10)
+        for (int out = 0; out <= 60; out += 30) {
+            Pose pose = figure_rest_pose();
+            scene_leg(s, &pose, true, degrees, degrees);
+            Mat3 turn = mat_axis_angle(vec(0, 1, 0), out * PI / 180);
+            Vec3 pivot = s->figure.start[ROLE_LEFT_THIGH];
+            Rigid about = {turn, vec_sub(pivot, mat_apply(turn, pivot))};
+            for (int r = ROLE_LEFT_THIGH; r < ROLE_RIGHT_THIGH; r++) pose.bone[r] = rigid_mul(about, pose.bone[r]);
+            most = fmax(most, most_stretched(&c, &pose, rest));
+        }
+    OK(most > 1.5 && most < 2.2, "between crotch and raised thigh trousers are stretched to %.2f times", most);
+    arena_free(&s->arena);
+}
+
+/* A thigh that comes to the belly and beyond, the other one less. */
+static void waists_stay_between_belly_and_thigh(void) {
+    Specimen c;
+    specimen_open(&c, "skirt", DETAIL, DEPTH);
+    Scene *s = &c.scene;
+    double deepest = 0;
+    for (int left = 90; left <= 150; left += 15)
+        for (int right = 0; right <= 90; right += 45) {
+            Pose pose = figure_rest_pose();
+            scene_leg(s, &pose, true, left, left);
+            scene_leg(s, &pose, false, right, right);
+            body_frame_pose(&s->posed, &pose);
+            follow_pose(&c.follower, &pose, c.root);
+            for (int place = 0; place < c.lattice.nplaces; place++) {
+                if (c.fit.patch[c.lattice.owner[place].patch].row > 0) continue;
+                Vec3 at = lattice_point(&c.lattice, c.root, place);
+                int thigh = s->body.of_role[ROLE_LEFT_THIGH];
+                deepest = fmax(deepest, -body_frame_distance(&s->posed, thigh, at, 0, NULL));
+            }
+        }
+    OK(deepest < 0.035, "between belly and thigh a skirt's waist goes %.0f mm through the thigh", 1e3 * deepest);
+    arena_free(&s->arena);
+}
+
+/* The least distance from the left shoulder, in its bind pose's, of what is bound to chest and left upper arm. */
+static double nearest_to_shoulder(Specimen *c, const Pose *pose) {
+    const Follower *f = &c->follower;
+    Vec3 joint = f->figure->start[ROLE_LEFT_UPPER_ARM], now = rigid_apply(pose->bone[ROLE_LEFT_UPPER_ARM], joint);
+    double least = INFINITY;
+    follow_pose(&c->follower, pose, c->root);
+    for (int k = 0; k < 2 * f->fit->ncurves; k++) {
+        const FitCurve *curve = &f->fit->curve[k / 2];
+        const Binding *b = &f->fit->node[curve->node[k % 2]].binding;
+        if (b->n != 2 || b->bone[0] != ROLE_CHEST || b->bone[1] != ROLE_LEFT_UPPER_ARM) continue;
+        double then = vec_dist(curve->rest[3 * (k % 2)], joint);
+        least = fmin(least, vec_dist(f->curve[k / 2][3 * (k % 2)], now) / then);
+    }
+    return least;
+}
+
+/* Below an arm that points away from the trunk there is room for cloth to be spanned, across the chest there is not. */
+static void arms_across_the_chest_crush_nothing(void) {
+    Specimen c;
+    specimen_open(&c, "tshirt", DETAIL, DEPTH);
+    Pose across = scene_arm_turned(&c.scene, vec(0, 1, 0), -110), raised = scene_reaching(&c.scene, -120);
+    double kept = nearest_to_shoulder(&c, &across), spanned = nearest_to_shoulder(&c, &raised);
+    OK(kept > 0.99, "cloth below an arm across the chest keeps its distance from the shoulder, %.3f of it", kept);
+    OK(spanned < 0.8, "below a raised arm it comes nearer, to %.3f", spanned);
+    arena_free(&c.scene.arena);
+}
+
+/* A long step, and legs apart to the sides as far. */
+static void cloth_climbs_between_legs_that_are_far_apart(void) {
+    Specimen c;
+    specimen_open(&c, "skirt", DETAIL, DEPTH);
+    Scene *s = &c.scene;
+    Vec3 *rest = places_now(&c);
+    double most = 0;
+    for (int degrees = 0; degrees <= 60; degrees += 10) {
+        Pose step = figure_rest_pose(), straddle = step;
+        scene_leg(s, &step, true, degrees, 0);
+        scene_leg(s, &step, false, -degrees, 0);
+        for (int r = ROLE_LEFT_THIGH; r < ROLE_COUNT; r++) {
+            bool left = r < ROLE_RIGHT_THIGH;
+            Mat3 turn = mat_axis_angle(vec(0, 0, left ? 1 : -1), degrees * PI / 180);
+            Vec3 pivot = s->figure.start[left ? ROLE_LEFT_THIGH : ROLE_RIGHT_THIGH];
+            straddle.bone[r] = (Rigid){turn, vec_sub(pivot, mat_apply(turn, pivot))};
+        }
+        most = fmax(most, fmax(most_stretched(&c, &step, rest), most_stretched(&c, &straddle, rest)));
+    }
+    OK(most > 1.5 && most < 2.5, "between legs that are far apart a skirt is spread, to %.2f times its length", most);
+    arena_free(&s->arena);
+}
+
+int main(void) {
+    folds_are_mitres();
+    raised_arms_stretch_little();
+    cloth_rides_up_round_the_seat();
+    waists_stay_between_belly_and_thigh();
+    trousers_ride_up_a_raised_thigh();
+    cloth_climbs_between_legs_that_are_far_apart();
+    arms_across_the_chest_crush_nothing();
+    return tap_done();
+}
