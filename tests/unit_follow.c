@@ -182,6 +182,30 @@ static void cloth_climbs_between_legs_that_are_far_apart(void) {
     arena_free(&s->arena);
 }
 
+/* A split, forwards and backwards, that goes on until the legs are beyond opposite. */
+static void a_split_turns_no_skirt_over(void) {
+    Specimen c;
+    specimen_open(&c, "skirt", DETAIL, DEPTH);
+    Scene *s = &c.scene;
+    double most = 0, leg = 0;
+    Vec3 *before = NULL, foot = {0, 0, 0};
+    for (int degrees = 80; degrees <= 100; degrees++) {
+        Pose pose = figure_rest_pose();
+        scene_leg(s, &pose, true, degrees, 0);
+        scene_leg(s, &pose, false, -degrees, 0);
+        follow_pose(&c.follower, &pose, c.root);
+        Vec3 *now = places_now(&c), at = rigid_apply(pose.bone[ROLE_LEFT_FOOT], s->figure.start[ROLE_LEFT_FOOT]);
+        for (int place = 0; before && place < c.lattice.nplaces; place++)
+            most = fmax(most, vec_dist(now[place], before[place]));
+        if (before) leg = fmax(leg, vec_dist(at, foot));
+        before = now;
+        foot = at;
+    }
+    OK(most < leg, "in a split a degree moves a foot by %.0f mm and the skirt by no more than %.0f", 1e3 * leg,
+       1e3 * most);
+    arena_free(&s->arena);
+}
+
 int main(void) {
     folds_are_mitres();
     raised_arms_stretch_little();
@@ -190,5 +214,6 @@ int main(void) {
     trousers_ride_up_a_raised_thigh();
     cloth_climbs_between_legs_that_are_far_apart();
     arms_across_the_chest_crush_nothing();
+    a_split_turns_no_skirt_over();
     return tap_done();
 }

@@ -17,6 +17,8 @@ static const double SLANT_LIMIT = 0.4; /* least cosine between a leg and a ring'
                                           if it had this one */
 static const double ABOVE_CM = 8, BELOW_CM = 10; /* above and below the hip joints, where rings turn from the pelvis to
                                                     the legs */
+static const double SPLIT = 1;         /* length of the sum of the legs' unit directions: if it is less (they are more than
+                                          120 degrees apart), rings are drawn back to the pelvis */
 static const double LEG_ROOM_CM = 2.2; /* room for swinging round each leg in a ring */
 static const double APART_CM = 3;      /* a ring is so much wider to either side than its legs if they cross */
 static const double SPARE_CM2 = 10;    /* width of the soft corner where the legs take up the last of the cloth */
@@ -166,11 +168,18 @@ typedef struct {
     Sym2 leg;            /* what the plane cuts out of one */
 } EnvelopeRing;
 
+/* The sum of the unit directions of both legs. In a split they are nearly opposite, and a little more of it would turn
+   their sum by much: then it is drawn to where the pelvis's down is. */
+static Vec3 along_both(const Envelope *env, const Vec3 leg[2]) {
+    Vec3 sum = vec_add(leg[0], leg[1]);
+    return vec_mad(sum, env->down, fmax(SPLIT - vec_len(sum), 0));
+}
+
 static EnvelopeRing ring_at(const Envelope *env, double s) {
     double cm = env->cm, share = smoothstep(-ABOVE_CM * cm, BELOW_CM * cm, s);
     Vec3 tangent[2], path[2];
     for (int leg = 0; leg < 2; leg++) path[leg] = leg_path(env, leg, s, &tangent[leg]);
-    Vec3 t = vec_scale(vec_add(tangent[0], tangent[1]), share);
+    Vec3 t = vec_scale(along_both(env, tangent), share);
     t = vec_unit_or(vec_mad(t, env->down, 2 * (1 - share)), env->down);
     Mat3 axes = ring_axes(env, t);
     Vec3 ax = mat_column(axes, 0), up = mat_column(axes, 1), az = mat_column(axes, 2);
@@ -327,7 +336,7 @@ void envelope_pose(Envelope *env, const Fit *fit, const Figure *figure, const Bo
     env->root = vec_mid(env->hip[0], env->hip[1]);
     env->rest_hip = 0.5 * vec_dist(figure->start[ROLE_LEFT_THIGH], figure->start[ROLE_RIGHT_THIGH]);
     env->hip_height = figure->start[ROLE_LEFT_THIGH].y;
-    Vec3 mean = vec_unit_or(vec_add(env->thigh[0], env->thigh[1]), env->down);
+    Vec3 mean = vec_unit_or(along_both(env, env->thigh), env->down);
     bend_outside(env, mean);
     env->last = climbed(env);
     for (int leg = 0; leg < 2; leg++) env->bend[leg] = bend_of(env, env->thigh[leg], mean);
