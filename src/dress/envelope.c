@@ -17,8 +17,8 @@ static const double SLANT_LIMIT = 0.4; /* least cosine between a leg and a ring'
                                           if it had this one */
 static const double ABOVE_CM = 8, BELOW_CM = 10; /* above and below the hip joints, where rings turn from the pelvis to
                                                     the legs */
-static const double SPLIT = 1;         /* length of the sum of the legs' unit directions: if it is less (they are more than
-                                          120 degrees apart), rings are drawn back to the pelvis */
+static const double SPLIT = 1;         /* length of the sum of both legs' unit directions: if it is less (they are more
+                                          than 120 degrees apart), rings are drawn back to the pelvis */
 static const double LEG_ROOM_CM = 2.2; /* room for swinging round each leg in a ring */
 static const double APART_CM = 3;      /* a ring is so much wider to either side than its legs if they cross */
 static const double SPARE_CM2 = 10;    /* width of the soft corner where the legs take up the last of the cloth */
