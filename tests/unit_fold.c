@@ -35,6 +35,24 @@ static void planes_halve_the_bend(Scene *s) {
     OK(closed == 0, "none is closed in the bind pose");
 }
 
+/* A thigh that comes up along the trunk, in the plane through the neck, and goes on past it. */
+static void a_fold_does_not_turn_over(Scene *s) {
+    double most = 0;
+    Vec3 before = {0, 0, 0}, hip = s->figure.start[ROLE_LEFT_THIGH];
+    Vec3 up = vec_unit_or(vec_sub(s->figure.end[ROLE_CHEST], hip), vec(0, 1, 0));
+    for (int degrees = 50; degrees >= -20; degrees--) {
+        Vec3 to = mat_apply(mat_axis_angle(vec(1, 0, 0), degrees * PI / 180), up);
+        Mat3 turn = mat_between(vec_unit_or(vec_sub(s->figure.end[ROLE_LEFT_THIGH], hip), up), to);
+        Pose pose = figure_rest_pose();
+        for (int r = ROLE_LEFT_THIGH; r < ROLE_RIGHT_THIGH; r++)
+            pose.bone[r] = (Rigid){turn, vec_sub(hip, mat_apply(turn, hip))};
+        Fold f = fold_of(s, &pose, ROLE_LEFT_THIGH);
+        if (degrees < 50) most = fmax(most, acos(clamp(vec_dot(f.across, before), -1, 1)) * 180 / PI);
+        before = f.across;
+    }
+    OK(most < 10, "a degree of a hip that is bent flat turns its fold by no more than %.1f degrees", most);
+}
+
 /* Behind a knee that is bent wholly, thigh and calf end at the plane, except for the bone at the joint. */
 static void flesh_ends_at_the_plane(Scene *s) {
     static const double DEEP = 2, GAP = 0.001; /* radii from the joint; metres */
@@ -143,6 +161,7 @@ int main(void) {
     Scene s;
     scene_open(&s, "trousers");
     planes_halve_the_bend(&s);
+    a_fold_does_not_turn_over(&s);
     flesh_ends_at_the_plane(&s);
     sides_are_told_by_the_bones(&s);
     nothing_else_moves(&s);

@@ -8,11 +8,24 @@ static const Hinge hinges[FOLDS] = {
     {ROLE_LEFT_THIGH, 100, 130, 1},     {ROLE_RIGHT_THIGH, 100, 130, 1},  {ROLE_LEFT_SHIN, 40, 80, 1.5},
     {ROLE_RIGHT_SHIN, 40, 80, 1.5},     {ROLE_LEFT_FOREARM, 40, 80, 1.5}, {ROLE_RIGHT_FOREARM, 40, 80, 1.5}};
 
+static const double FLAT = 0.3; /* length of the difference of unit directions along both sides of a hip: less is bent
+                                   nearly flat, by more than 163 degrees */
+
 static bool is_hip(Role lower) { return lower == ROLE_LEFT_THIGH || lower == ROLE_RIGHT_THIGH; }
 
 /* A point `at` metres along a part's bone; world. */
 static Vec3 along_bone(const BodyPart *part, const Pose *pose, double at) {
     return rigid_apply(pose->bone[part->role], rigid_apply(part->frame, vec(0, at, 0)));
+}
+
+/* The direction from a thigh to the trunk. If the hip is bent by nearly 180 degrees, the lines along both hardly
+   differ, and what they differ by turns over as the thigh goes on past the trunk. Then the thigh is beside the
+   belly, so that direction is drawn to the midline. */
+static Vec3 apart_at_hip(const Pose *pose, const Fold *f, Vec3 up, Vec3 down) {
+    Vec3 left = mat_column(pose->bone[ROLE_PELVIS].r, 0), apart = vec_sub(up, down);
+    Vec3 midline = f->lower == ROLE_LEFT_THIGH ? vec_scale(left, -1) : left;
+    Vec3 aside = vec_unit_or(vec_mad(midline, f->inwards, -vec_dot(midline, f->inwards)), apart);
+    return vec_mad(apart, aside, fmax(FLAT - vec_len(apart), 0));
 }
 
 static Fold find(const Body *body, const Pose *pose, const Hinge *hinge) {
@@ -30,8 +43,8 @@ static Fold find(const Body *body, const Pose *pose, const Hinge *hinge) {
     Vec3 down = vec_unit_or(vec_sub(along_bone(lower, pose, lower->length), f.joint), vec(0, -1, 0));
     double bend = atan2(vec_len(vec_cross(up, down)), -vec_dot(up, down));
     f.closed = smoothstep(hinge->opens * PI / 180, hinge->folds * PI / 180, bend);
-    f.across = vec_unit_or(vec_sub(up, down), up);
     f.inwards = vec_unit_or(vec_add(up, down), vec(0, 0, 0));
+    f.across = vec_unit_or(is_hip(hinge->lower) ? apart_at_hip(pose, &f, up, down) : vec_sub(up, down), up);
     return f;
 }
 
