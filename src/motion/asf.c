@@ -19,7 +19,8 @@ typedef struct {
     double length;
     char order[AXES + 1];
     int parent, first_child, last_child, next; /* -1: none */
-    int joint;                                 /* its index in the skeleton */
+    int joint;                                 /* its index in the skeleton; -1: not there yet */
+    Mark place;                                /* of its name, or of its beginning */
 } Part;
 
 typedef struct {
@@ -90,7 +91,8 @@ static Part *add_part(Asf *a, Error *e) {
     if (!part) return NULL;
     a->part = part;
     Part *p = &a->part[a->nparts++];
-    *p = (Part){.order = "XYZ", .parent = -1, .first_child = -1, .last_child = -1, .next = -1};
+    *p = (Part){.order = "XYZ", .parent = -1, .first_child = -1, .last_child = -1, .next = -1, .joint = -1};
+    p->place = stream_mark(&a->in);
     return p;
 }
 
@@ -121,8 +123,10 @@ static bool read_root(Asf *a, Error *e) {
     return true;
 }
 
-static bool take_name(Asf *a, Bone *b, Error *e) {
+static bool take_name(Asf *a, Part *p, Error *e) {
+    Bone *b = &p->bone;
     Word w = stream_peek(&a->in);
+    p->place = stream_mark(&a->in);
     if (!w.length || w.first) return refuse_word(a, w, "a bone's name", e);
     if (w.length > NAME_MAX_BYTES) return stream_error(&a->in, e, "bone name of more than %d bytes", NAME_MAX_BYTES);
     b->name = arena_text(a->o->arena, w.start, (size_t)w.length, e);
@@ -134,14 +138,15 @@ static bool take_name(Asf *a, Bone *b, Error *e) {
 static bool read_bone(Asf *a, Error *e) {
     Word w = stream_peek(&a->in);
     if (word_is(w, "begin")) {
+        if (!add_part(a, e)) return false;
         stream_word(&a->in);
-        return add_part(a, e) != NULL;
+        return true;
     }
     if (a->nparts < 2) return refuse_word(a, w, "'begin'", e);
     Part *p = &a->part[a->nparts - 1];
     if (word_is(w, "end") && !p->bone.name) return stream_error(&a->in, e, "a bone without a name");
     w = stream_word(&a->in);
-    if (word_is(w, "name")) return take_name(a, &p->bone, e);
+    if (word_is(w, "name")) return take_name(a, p, e);
     if (word_is(w, "direction")) return read_vector(a, "the bone's direction", &p->direction, e);
     if (word_is(w, "length")) return read_scalar(a, "the bone's length", &p->length, e);
     if (word_is(w, "axis")) return read_vector(a, "the bone's axis", &p->angles, e) && read_order(a, p->order, e);
@@ -167,20 +172,29 @@ int asf_bone(const Acclaim *a, Word name) {
     return -1;
 }
 
+/* Goes back to where part i is named, for an error there. */
+static Stream *at_part(Asf *a, int i) {
+    stream_seek(&a->in, a->part[i].place);
+    return &a->in;
+}
+
 /* Called when all bones are known: sorts them by name. Until the tree is built, Bone.joint is the index of the part. */
 static bool sort_bones(Asf *a, Error *e) {
     Acclaim *k = a->acclaim;
     if (!(k->bone = ARENA_NEW(a->o->arena, Bone, a->nparts, e))) return false;
     for (k->nbones = 0; k->nbones < a->nparts; k->nbones++) {
         Bone *b = &a->part[k->nbones].bone;
-        if (!b->name) return stream_error(&a->in, e, "a bone without a name");
+        if (!b->name) return stream_error(at_part(a, k->nbones), e, "a bone without a name");
         b->joint = k->nbones;
         k->bone[k->nbones] = *b;
     }
     qsort(k->bone, (size_t)k->nbones, sizeof *k->bone, by_name);
     for (int i = 1; i < k->nbones; i++)
-        if (by_name(&k->bone[i - 1], &k->bone[i]) == 0)
-            return stream_error(&a->in, e, "two bones are named '%.60s'", k->bone[i].name);
+        if (by_name(&k->bone[i - 1], &k->bone[i]) == 0) {
+            int one = k->bone[i - 1].joint, other = k->bone[i].joint;
+            return stream_error(at_part(a, one > other ? one : other), e, "two bones are named '%.60s'",
+                                k->bone[i].name);
+        }
     a->linked = true;
     return true;
 }
@@ -324,12 +338,13 @@ static int walk(const Asf *a, int i) {
 
 static bool build_joints(Asf *a, Error *e) {
     Joint *joint = ARENA_NEW(a->o->scratch, Joint, 2 * a->nparts, e);
-    int njoints = 0, placed = 0;
+    int njoints = 0;
     if (!joint) return false;
-    for (int i = 0; i >= 0; i = walk(a, i), placed++)
+    for (int i = 0; i >= 0; i = walk(a, i))
         if (!add_joint(a, i, joint, &njoints, e)) return false;
-    if (placed < a->nparts)
-        return error_set(e, ERR_INPUT, "'%s': %d bones have no place in the hierarchy", a->in.name, a->nparts - placed);
+    for (int i = 0; i < a->nparts; i++)
+        if (a->part[i].joint < 0)
+            return stream_error(at_part(a, i), e, "bone '%.60s' has no place in the hierarchy", a->part[i].bone.name);
     for (int i = 0; i < a->acclaim->nbones; i++) {
         Bone *b = &a->acclaim->bone[i];
         const Part *p = &a->part[b->joint];
