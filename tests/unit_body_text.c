@@ -93,6 +93,7 @@ static void test_bad_text(void) {
         {HEAD TWO "mirror head\n", 5, 8, "no other side"},
         {HEAD TWO "mirror left_hand\n", 5, 8, "must be given before"},
         {HEAD TWO "tail 1\n", 5, 1, "expected 'part', 'section', 'caps' or 'mirror'"},
+        {HEAD "secton 0 0 0 .1 .1 .1\n", 3, 1, "expected 'part', 'section', 'caps' or 'mirror', found 'secton'"},
     };
     static BodySpec out;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

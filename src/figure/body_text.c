@@ -123,19 +123,21 @@ bool body_parse(const Text *text, BodySpec *out, Error *e) {
             if (!(section ? read_section : read_caps)(&line, open, e)) return false;
             continue;
         }
+        bool part = text_is(&line, 0, "part");
+        /* Before a part is blamed that lacks sections: by a slip of the pen in one of them, maybe. */
+        if (!part && !text_is(&line, 0, "mirror"))
+            return text_error(&line, 0, e, "expected 'part', 'section', 'caps' or 'mirror', found '%.*s'",
+                              error_shown(line.length[0]), line.word[0]);
         if (!end_part(open, &opening, e)) return false;
         open = NULL;
-        if (text_is(&line, 0, "part")) {
+        if (part) {
             Role role = ROLE_COUNT;
             if (!read_role(&line, out, &role, e)) return false;
             open = &out->part[out->nparts++];
             open->role = role;
             opening = line;
-        } else if (text_is(&line, 0, "mirror")) {
-            if (!read_mirror(&line, out, e)) return false;
-        } else {
-            return text_error(&line, 0, e, "expected 'part', 'section', 'caps' or 'mirror', found '%.*s'",
-                              error_shown(line.length[0]), line.word[0]);
+        } else if (!read_mirror(&line, out, e)) {
+            return false;
         }
     }
     if (e->kind != ERR_NONE || !end_part(open, &opening, e)) return false;
