@@ -32,6 +32,12 @@ body() {
 roles() {
     refused "roles: $1" "$2" good.bvh -g "$skirt" --roles x.roles
 }
+once() { # once PATTERN ARGUMENT...: however many motions there are, it is said once, and nothing is begun
+    pattern=$1
+    shift
+    must_fail 3 "$KITSUKE" dress good.bvh "$root/motions" -g "$skirt" "$@" -o once &&
+        [ ! -e once ] && says "$pattern" && [ "$(grep -Ec '(: error: |^kitsuke: )' err)" -eq 1 ]
+}
 line() { grep -n "$1" good.bvh | head -n 1 | cut -d: -f1; }
 frame1=$(($(line '^Frame Time') + 1))
 last=$(wc -l <good.bvh | tr -d ' ')
@@ -127,11 +133,8 @@ awk 'BEGIN { print "garment x"; for (i = 0; i < 30000; i++) print "ring r" i " p
 garment '30,000 rings' "$place"
 
 sed '/^part pelvis/,/^caps/d' "$root/garments/adult.body" >bare.body
-misfit() { # however many motions there are, it is said once, and nothing is begun
-    must_fail 3 "$KITSUKE" dress good.bvh "$root/motions" -g "$skirt" --body bare.body -o misfit &&
-        [ "$(wc -l <err)" -eq 1 ] && [ ! -e misfit ] && says "ring 'waist' is on 'pelvis', which the body does not have"
-}
-ok 'garment: on a part that the body does not have' misfit
+ok 'garment: on a part that the body does not have' \
+    once "ring 'waist' is on 'pelvis', which the body does not have" --body bare.body
 refused 'body: missing' "cannot open 'nowhere.body'" good.bvh -g "$skirt" --body nowhere.body
 : >x.body; body empty 'x.body'
 printf 'body x\npart tail\n  0 0 0 0.1 0.1 0.1\n' >x.body; body 'an unknown bone' '^x.body:2:6: error: .*tail'
@@ -140,8 +143,11 @@ head -c 3000 "$KITSUKE" >x.body; body 'a binary file' 'binary'
 
 refused 'roles: missing' "cannot open 'nowhere.roles'" good.bvh -g "$skirt" --roles nowhere.roles
 printf 'tail = Hips\n' >x.roles; roles 'an unknown role' "^x.roles:1:1: error: .*tail"
+ok 'roles: what no motion could mend' once "^x.roles:1:1: error: .*tail" --roles x.roles
 printf 'pelvis = Hipps\n' >x.roles; roles 'an unknown joint' '^x.roles:1:10: error: .*Hipps'
 printf 'pelvis Hips\n' >x.roles; roles 'no equals sign' '^x.roles:1:[0-9]+: error: '
+printf 'pelvis = Hips\nspine = Hips\n' >x.roles
+roles 'a joint twice' "^x.roles:2:9: error: joint 'Hips' plays two roles"
 printf 'left_thigh = none\n' >x.roles; roles 'a role taken away' 'left_thigh'
 printf '# none\n\npelvis = Hips\n' >x.roles
 ok 'roles: by hand' "$KITSUKE" dress -q good.bvh -g "$skirt" -o hand --roles x.roles --format none

@@ -24,9 +24,11 @@ typedef struct {
 /* Opens a motion as far as its roles. roles_file may be NULL. */
 static inline bool rig_roles(Rig *r, const char *path, const char *roles_file) {
     MotionOptions options = {0};
+    RoleFile file = {0};
     memset(r, 0, sizeof *r);
     return motion_open(path, &options, &r->arena, &r->notes, &r->motion, &r->e) &&
-           roles_read(&r->motion, roles_file, &r->arena, &r->notes, &r->roles, &r->e);
+           (!roles_file || role_file_read(roles_file, &r->arena, &file, &r->e)) &&
+           roles_read(&r->motion, &file, &r->arena, &r->notes, &r->roles, &r->e);
 }
 
 /* Opens it ready for rig_pose. */

@@ -431,7 +431,7 @@ static void test_role_files(void) {
     test_file("head = Bip01 Head\nhead = Bip01 Head\n", "given twice", 2, 1);
     test_file("head Bip01 Head\n", "expected 'role = joint'", 1, 1);
     test_file("head =\n", "no joint for role", 1, 7);
-    test_file("chest = Bip01 Head\nhead = Bip01 Head\n", "plays two roles", 0, 0);
+    test_file("chest = Bip01 Head\nhead = Bip01 Head\n", "plays two roles", 2, 8);
     test_file("left_shin = none\n", "missing roles: left_shin", 0, 0);
 }
 

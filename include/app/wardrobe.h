@@ -8,11 +8,12 @@
 typedef struct {
     const Settings *settings;
     BodySpec body;
+    RoleFile roles;
     int ngarments;
     Garment **garment;
 } Wardrobe;
 
-/* The body and the garments that the settings name. Two garments of one name are an error, for
+/* The body, the garments and the roles that the settings name. Two garments of one name are an error, for
    names become files; so is one that does not fit the body (ERR_INPUT): it would fit no figure. Memory from arena. */
 MUST_CHECK bool wardrobe_read(const Settings *settings, Arena *arena, Wardrobe *out, Error *e);
 

@@ -34,10 +34,24 @@ Role role_mirror(Role role);
    are always there after a success. */
 typedef struct { int joint[ROLE_COUNT]; } Roles;
 
+/* What a file tells of roles: lines `role = joint`, in the file's order and each role once. Clear with {0}: it tells
+   nothing. */
+typedef struct {
+    struct {
+        Role role;
+        const char *joint; /* the rest of the line; `none` removes a role */
+        Place place;       /* of the joint's name */
+    } line[ROLE_COUNT];
+    int count;
+} RoleFile;
+
+/* Reads and checks what can be checked without a motion, so that a file that many motions share is read once and wrong
+   once. Texts from arena. */
+MUST_CHECK bool role_file_read(const char *path, Arena *arena, RoleFile *out, Error *e);
+
 /* Finds the roles by names and, where names do not settle it, by topology and geometry of
    some poses of the motion. ERR_INPUT with the list of missing roles where it is no human.
-   roles_file may be NULL, else lines `role = joint` that win over everything found (the joint
-   is the rest of the line; `none` removes a role). */
-MUST_CHECK bool roles_read(const Motion *m, const char *roles_file, Arena *scratch, Notes *notes, Roles *out, Error *e);
+   What the file tells wins over everything found; it may be NULL. */
+MUST_CHECK bool roles_read(const Motion *m, const RoleFile *file, Arena *scratch, Notes *notes, Roles *out, Error *e);
 
 #endif

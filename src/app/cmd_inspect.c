@@ -121,12 +121,13 @@ static bool look_for_jumps(const Motion *m, const Figure *f, Arena *arena, Notes
     return good && e->kind == ERR_NONE;
 }
 
-static bool inspect_figure(const Motion *m, const Settings *s, Arena *arena, Notes *notes, Error *e) {
+static bool inspect_figure(const Motion *m, const Settings *s, const RoleFile *file, Arena *arena, Notes *notes,
+                           Error *e) {
     Roles roles;
     Figure figure;
     Error why = {0};
     FigureOptions options = {s->unit, s->scale, (char)s->up};
-    if (!roles_read(m, s->roles, arena, notes, &roles, &why)) {
+    if (!roles_read(m, file, arena, notes, &roles, &why)) {
         if (s->roles || why.kind != ERR_INPUT) return *e = why, false;
         printf("  %s\n", why.text); /* no human skeleton, and what it lacks */
         return true;
@@ -136,7 +137,7 @@ static bool inspect_figure(const Motion *m, const Settings *s, Arena *arena, Not
     return look_for_jumps(m, &figure, arena, notes, e);
 }
 
-static bool inspect_motion(const char *path, const Settings *s, Arena *arena, Error *e) {
+static bool inspect_motion(const char *path, const Settings *s, const RoleFile *roles, Arena *arena, Error *e) {
     MotionOptions options = {.asf = s->asf, .fps = s->fps, .position = (PositionRule)s->position,
                              .max_joints = s->max_joints, .max_frames = s->max_frames};
     Notes notes = {0};
@@ -147,7 +148,7 @@ static bool inspect_motion(const char *path, const Settings *s, Arena *arena, Er
         good = print_joints(&motion, &s->frames, arena, e);
     } else if (good) {
         print_motion(&motion);
-        good = inspect_figure(&motion, s, arena, &notes, e);
+        good = inspect_figure(&motion, s, roles, arena, &notes, e);
         print_warnings(&notes);
     }
     motion_close(&motion);
@@ -247,12 +248,12 @@ static void first_word(const char *path, char word[16]) {
     if (f) fclose(f);
 }
 
-static bool inspect(const char *path, const Settings *s, Arena *arena, Error *e) {
+static bool inspect(const char *path, const Settings *s, const RoleFile *roles, Arena *arena, Error *e) {
     char word[16];
     Text text;
     first_word(path, word);
     bool is_garment = strcmp(word, "garment") == 0, is_body = strcmp(word, "body") == 0;
-    if (s->joints || (!is_garment && !is_body)) return inspect_motion(path, s, arena, e);
+    if (s->joints || (!is_garment && !is_body)) return inspect_motion(path, s, roles, arena, e);
     if (!text_read(path, MODEL_FILE_MAX, arena, &text, e)) return false;
     return is_garment ? inspect_garment(&text, arena, e) : inspect_body(&text, arena, e);
 }
@@ -265,11 +266,14 @@ static bool check_needed(const Settings *s, Error *e) {
 
 ErrorKind cmd_inspect(const Settings *s, Error *e) {
     ErrorKind worst = ERR_NONE;
+    RoleFile roles = {0};
+    Arena shared = {0};
     if (!check_needed(s, e)) return e->kind;
-    for (int i = 0; i < s->inputs.count; i++) {
+    if (s->roles && !role_file_read(s->roles, &shared, &roles, e)) worst = e->kind;
+    for (int i = 0; e->kind == ERR_NONE && i < s->inputs.count; i++) {
         Arena arena = {0};
         Error wrong = {0};
-        if (!inspect(s->inputs.item[i], s, &arena, &wrong)) {
+        if (!inspect(s->inputs.item[i], s, &roles, &arena, &wrong)) {
             fflush(stdout);
             error_print(&wrong, stderr);
             if (wrong.kind > worst) worst = wrong.kind;
@@ -278,5 +282,6 @@ ErrorKind cmd_inspect(const Settings *s, Error *e) {
         }
         arena_free(&arena);
     }
+    arena_free(&shared);
     return worst;
 }

@@ -51,5 +51,6 @@ static bool try_on(const Wardrobe *w, Error *e) {
 
 bool wardrobe_read(const Settings *s, Arena *arena, Wardrobe *out, Error *e) {
     *out = (Wardrobe){.settings = s};
-    return read_body(s, out, e) && read_garments(s, out, arena, e) && try_on(out, e);
+    bool good = read_body(s, out, e) && read_garments(s, out, arena, e) && try_on(out, e);
+    return good && (!s->roles || role_file_read(s->roles, arena, &out->roles, e));
 }

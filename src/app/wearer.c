@@ -16,7 +16,7 @@ bool wearer_open(const Wardrobe *wardrobe, const char *path, double unit, Arena 
     FigureOptions figure = {s->unit, s->scale, (char)s->up};
     Roles roles;
     return motion_open(path, &options, arena, notes, &out->motion, e) &&
-           roles_read(&out->motion, s->roles, arena, notes, &roles, e) &&
+           roles_read(&out->motion, &wardrobe->roles, arena, notes, &roles, e) &&
            figure_build(&out->motion, &roles, &figure, arena, notes, &out->figure, e) &&
            body_fit(&wardrobe->body, &out->figure, s->body_detail ? s->body_detail : 16, arena, &out->body, e) &&
            make_frame(out, unit, arena, e);

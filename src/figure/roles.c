@@ -64,14 +64,8 @@ static bool copy_trimmed(const char *from, const char *to, char *out, size_t n) 
     return true;
 }
 
-static bool unknown_joint(const Skeleton *s, Place place, const char *joint, Error *e) {
-    Nearest near = {.word = joint};
-    for (int j = 0; j < s->njoints; j++) nearest_try(&near, s->joint[j].name);
-    return nearest_error(&near, "joint", place, e);
-}
-
 /* One line `role = joint`. */
-MUST_CHECK static bool read_line(const Skeleton *s, const Line *line, bool *given, Roles *out, Error *e) {
+MUST_CHECK static bool read_line(const Line *line, Arena *arena, RoleFile *out, Error *e) {
     const char *start = line->word[0], *end = line->word[line->count - 1] + line->length[line->count - 1];
     const char *equals = memchr(start, '=', (size_t)(end - start));
     char role_text[64], joint_text[NAME_MAX_LENGTH];
@@ -81,8 +75,8 @@ MUST_CHECK static bool read_line(const Skeleton *s, const Line *line, bool *give
         return error_at(e, ERR_INPUT, at_role, "role name too long");
     Role role = role_find(role_text, (int)strlen(role_text));
     if (role == ROLE_COUNT) return role_unknown(role_text, "role", at_role, e);
-    if (given[role]) return error_at(e, ERR_INPUT, at_role, "role '%s' given twice", role_text);
-    given[role] = true;
+    for (int i = 0; i < out->count; i++)
+        if (out->line[i].role == role) return error_at(e, ERR_INPUT, at_role, "role '%s' given twice", role_text);
 
     const char *value = equals + 1;
     while (value < end && blank(*value)) value++;
@@ -90,23 +84,42 @@ MUST_CHECK static bool read_line(const Skeleton *s, const Line *line, bool *give
     if (value == end) return error_at(e, ERR_INPUT, at_joint, "no joint for role '%s'", role_text);
     if (!copy_trimmed(value, end, joint_text, sizeof joint_text))
         return error_at(e, ERR_INPUT, at_joint, "joint name too long");
-    int joint = skeleton_find(s, joint_text);
-    out->joint[role] = joint;
-    if (joint < 0 && strcmp(joint_text, "none") == 0) return true;
-    if (joint < 0) return unknown_joint(s, at_joint, joint_text, e);
-    if (!s->joint[joint].is_end) return true;
-    return error_at(e, ERR_INPUT, at_joint, "'%s' is an end site, not a joint", joint_text);
+    out->line[out->count].role = role;
+    out->line[out->count].place = at_joint;
+    out->line[out->count].joint = arena_text(arena, joint_text, strlen(joint_text), e);
+    return out->line[out->count++].joint != NULL;
 }
 
-MUST_CHECK static bool read_file(const Skeleton *s, const char *path, Arena *scratch, bool *given, Roles *out,
-                                 Error *e) {
+bool role_file_read(const char *path, Arena *arena, RoleFile *out, Error *e) {
     Text text;
     Line line;
-    if (!text_read(path, FILE_LIMIT, scratch, &text, e)) return false;
+    *out = (RoleFile){0};
+    if (!text_read(path, FILE_LIMIT, arena, &text, e)) return false;
     Cursor c = text_start(&text);
     while (text_line(&c, &line, e))
-        if (!read_line(s, &line, given, out, e)) return false;
+        if (!read_line(&line, arena, out, e)) return false;
     return e->kind == ERR_NONE;
+}
+
+static bool unknown_joint(const Skeleton *s, Place place, const char *joint, Error *e) {
+    Nearest near = {.word = joint};
+    for (int j = 0; j < s->njoints; j++) nearest_try(&near, s->joint[j].name);
+    return nearest_error(&near, "joint", place, e);
+}
+
+/* The joints of this skeleton that the file names. */
+MUST_CHECK static bool find_joints(const Skeleton *s, const RoleFile *file, bool *given, Roles *out, Error *e) {
+    for (int i = 0; i < file->count; i++) {
+        const char *name = file->line[i].joint;
+        Place place = file->line[i].place;
+        int joint = skeleton_find(s, name);
+        if (joint < 0 && strcmp(name, "none") != 0) return unknown_joint(s, place, name, e);
+        if (joint >= 0 && s->joint[joint].is_end)
+            return error_at(e, ERR_INPUT, place, "'%s' is an end site, not a joint", name);
+        given[file->line[i].role] = true;
+        out->joint[file->line[i].role] = joint;
+    }
+    return true;
 }
 
 /* --- what must be there --- */
@@ -123,13 +136,20 @@ static bool check_required(const Motion *m, const Roles *roles, Error *e) {
     return error_set(e, ERR_INPUT, "no human skeleton in '%s': missing roles: %s", m->path ? m->path : "motion", list);
 }
 
+/* The last line that gives one of two roles a joint. */
+static Place place_of(const RoleFile *file, int a, int b) {
+    int i = file->count - 1;
+    while (i > 0 && (int)file->line[i].role != a && (int)file->line[i].role != b) i--;
+    return i < 0 ? (Place){0} : file->line[i].place;
+}
+
 /* A role file can ask for one joint twice; the search cannot. Only a trunk may be of one bone. */
-static bool check_distinct(const Skeleton *s, const Roles *roles, Error *e) {
+static bool check_distinct(const Skeleton *s, const Roles *roles, const RoleFile *file, Error *e) {
     for (int a = 0; a < ROLE_COUNT; a++)
         for (int b = a + 1; b < ROLE_COUNT; b++)
             if (roles->joint[a] >= 0 && roles->joint[a] == roles->joint[b] && !(a == ROLE_PELVIS && b == ROLE_CHEST))
-                return error_set(e, ERR_INPUT, "joint '%s' plays two roles: %s and %s", s->joint[roles->joint[a]].name,
-                                 names[a], names[b]);
+                return error_at(e, ERR_INPUT, place_of(file, a, b), "joint '%s' plays two roles: %s and %s",
+                                s->joint[roles->joint[a]].name, names[a], names[b]);
     return true;
 }
 
@@ -148,17 +168,19 @@ static void take_from_file(const Skeleton *s, const bool *given, const Roles *fi
         if (given[a]) roles->joint[a] = file->joint[a];
 }
 
-bool roles_read(const Motion *m, const char *roles_file, Arena *scratch, Notes *notes, Roles *out, Error *e) {
+bool roles_read(const Motion *m, const RoleFile *file, Arena *scratch, Notes *notes, Roles *out, Error *e) {
+    static const RoleFile nothing = {.count = 0};
     Sample sample;
     Tree tree;
     if (!sample_read(m, SAMPLE_FRAMES, scratch, &sample, e)) return false;
     if (!tree_build(&m->skeleton, &sample, scratch, &tree, e)) return false;
     bool given[ROLE_COUNT] = {false};
-    Roles file;
-    for (int r = 0; r < ROLE_COUNT; r++) file.joint[r] = -1;
-    if (roles_file && !read_file(&m->skeleton, roles_file, scratch, given, &file, e)) return false;
+    Roles told;
+    if (!file) file = &nothing;
+    for (int r = 0; r < ROLE_COUNT; r++) told.joint[r] = -1;
+    if (!find_joints(&m->skeleton, file, given, &told, e)) return false;
     bool sides_are_told = given[ROLE_LEFT_THIGH] && given[ROLE_RIGHT_THIGH]; /* then the search may doubt in silence */
-    human_find(&tree, &file, sides_are_told ? NULL : notes, out);
-    take_from_file(&m->skeleton, given, &file, notes, out);
-    return check_distinct(&m->skeleton, out, e) && check_required(m, out, e);
+    human_find(&tree, &told, sides_are_told ? NULL : notes, out);
+    take_from_file(&m->skeleton, given, &told, notes, out);
+    return check_distinct(&m->skeleton, out, file, e) && check_required(m, out, e);
 }

@@ -12,11 +12,12 @@ static bool build(const char *motion, const char *roles_file, Arena *arena, Erro
     MotionOptions options = {.max_frames = 1000, .max_joints = 200};
     FigureOptions nothing = {0};
     Motion m;
+    RoleFile file;
     Roles roles;
     Figure figure;
     notes.count = 0;
     bool good = motion_open(motion, &options, arena, &notes, &m, e) &&
-                roles_read(&m, roles_file, arena, &notes, &roles, e) &&
+                role_file_read(roles_file, arena, &file, e) && roles_read(&m, &file, arena, &notes, &roles, e) &&
                 figure_build(&m, &roles, &nothing, arena, &notes, &figure, e);
     if (good && !(figure.height > 0 && figure.height < 1e6)) abort();
     motion_close(&m);
