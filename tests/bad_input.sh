@@ -158,5 +158,10 @@ ok 'inspect: a folder' inspects 3 empty 'directory'
 printf 'garment x\nring a tail 1 ease 0\n' >x.garment
 grep -v '^collide' "$skirt" >bare.garment
 like 'inspect: a garment that keeps out of nothing' "$("$KITSUKE" inspect bare.garment)" '^  collides    nothing$'
+marked() { # with a byte-order mark, as some editors write it
+    printf '\357\273\277# by hand\n' | cat - "$1" >marked && "$KITSUKE" inspect marked
+}
+like 'inspect: a garment with a byte-order mark' "$(marked "$skirt")" '^marked: garment skirt$'
+like 'inspect: a body with one' "$(marked "$root/garments/adult.body")" '^marked: body adult$'
 ok 'inspect: a garment with a mistake' inspects 3 x.garment '^x.garment:2:8: error: '
 done_testing

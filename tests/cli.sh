@@ -144,6 +144,24 @@ must_fail 3 "$KITSUKE" dress - -g "$skirt" -o i >log
 is 'where nothing comes from' "$(cat err)" "kitsuke: '<stdin>' is empty"
 from_pipe() { "$KITSUKE" dress - -g "$skirt" -o i --frames 1:1 -q <"$walk" && [ -f i/stdin/skirt.0001.obj ]; }
 ok '- is standard input' from_pipe
+# Whatever a command line names may be a pipe, which can be read only once.
+piped() { # piped FILE ARGUMENT...: one frame, dressed with the file on /dev/stdin, is that of files
+    file=$1
+    shift
+    rm -rf piped
+    cat "$file" | "$KITSUKE" dress -o piped --frames 1 --no-times -q "$@" &&
+        diff piped/*/stats.csv from_files/*/stats.csv
+}
+"$KITSUKE" dress "$walk" -g "$skirt" -o from_files --frames 1 --no-times -q
+ok 'a motion may be a pipe' piped "$walk" /dev/stdin -g "$skirt"
+ok 'a garment, too' piped "$skirt" "$walk" -g /dev/stdin
+ok 'a body' piped "$root/garments/adult.body" "$walk" -g "$skirt" --body /dev/stdin
+printf 'pelvis = Hipps\n' >x.roles
+piped_roles() { cat x.roles | "$KITSUKE" dress "$walk" -g "$skirt" -o piped --roles /dev/stdin -f -q 2>err; }
+piped_roles
+is 'roles from one are not passed over' "$?,$(head -n 1 err)" \
+    "3,/dev/stdin:1:10: error: unknown joint 'Hipps'; did you mean 'Hips'?"
+like 'inspect looks into one' "$(cat "$walk" | "$KITSUKE" inspect /dev/stdin)" '^/dev/stdin: BVH motion$'
 
 "$KITSUKE" inspect "$walk" >out 2>err
 is 'inspect says nothing on stderr' "$(cat err)" ''

@@ -164,4 +164,13 @@ limited() { (ulimit -f 20 && must_fail 4 dress -o limit --format obj) && grep -q
 ok 'a limit of the size of files is an error, not a death' limited
 ok 'and can be resumed from' dressed '^4 of 5' --resume -o limit
 ok 'to the same bytes' diff -r whole limit
+# What came through a pipe cannot be compared with what comes next.
+through_pipe() { "$KITSUKE" dress in/walk1.bvh -g /dev/stdin -o piped --frames 1 --resume 2>err; }
+through_pipe <skirt.garment
+like 'a garment in a file is known again' "$(through_pipe <skirt.garment; tail -n 1 err)" '\(1 before\)'
+sed 's/^ring hip .*/ring hip pelvis 0.4 ease 0.05/' skirt.garment | through_pipe
+like 'one from a pipe is put on' "$(tail -n 1 err)" '^1 of 1 motion dressed, 1 frame,'
+is 'and leaves no record' "$(ls piped/walk1/.done 2>/dev/null)" ''
+cat skirt.garment | through_pipe
+like 'so another one is not taken for it' "$(tail -n 1 err)" '^1 of 1 motion dressed, 1 frame,'
 done_testing

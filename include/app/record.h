@@ -10,7 +10,7 @@
 
 #define RECORD_NAME ".done"
 
-/* Of what a motion was made. motion 0: cannot be known (standard input), never finished. */
+/* Of what a motion was made. 0: cannot be known (standard input, a pipe), never finished. */
 typedef struct { Digest options, motion; } RecordKey;
 
 typedef struct {

@@ -237,21 +237,10 @@ static bool inspect_body(const Text *text, Arena *arena, Error *e) {
     return print_round_trip(text, spec, parse_body, spec + 1, write_body, e);
 }
 
-/* The first word of a text file that is no comment: "garment", "body", "HIERARCHY", ... */
-static void first_word(const char *path, char word[16]) {
-    FILE *f = strcmp(path, "-") == 0 ? NULL : fopen(path, "r");
-    word[0] = 0;
-    for (int lines = 0; f && lines < 1000 && fscanf(f, "%15s", word) == 1 && word[0] == '#'; lines++) {
-        word[0] = 0;
-        for (int c; (c = fgetc(f)) != EOF && c != '\n';) continue;
-    }
-    if (f) fclose(f);
-}
-
 static bool inspect(const char *path, const Settings *s, const RoleFile *roles, Arena *arena, Error *e) {
-    char word[16];
+    char word[TEXT_FIRST];
     Text text;
-    first_word(path, word);
+    text_first_word(path, word);
     bool is_garment = strcmp(word, "garment") == 0, is_body = strcmp(word, "body") == 0;
     if (s->joints || (!is_garment && !is_body)) return inspect_motion(path, s, roles, arena, e);
     if (!text_read(path, MODEL_FILE_MAX, arena, &text, e)) return false;

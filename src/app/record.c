@@ -27,8 +27,17 @@ static void list_options(const Settings *s, FILE *out) {
     stats_describe(TABLE_SUMMARY, out);
 }
 
+/* Can all that is put on be read here, after it has been read for the work? */
+static bool are_kept(const Settings *s) {
+    bool kept = (!s->body || text_is_kept(s->body)) && (!s->roles || text_is_kept(s->roles));
+    for (int i = 0; i < s->garments.count; i++) kept = kept && text_is_kept(s->garments.item[i]);
+    return kept;
+}
+
 bool record_options(const Settings *s, Digest *out, Error *e) {
     char text[LIST_MAX];
+    *out = 0;
+    if (!are_kept(s)) return true;
     FILE *list = fmemopen(text, sizeof text, "w");
     if (!list) return error_set(e, ERR_INTERNAL, "out of memory for the list of options");
     list_options(s, list);
@@ -66,22 +75,14 @@ static bool add_skeletons(Digest *d, const char *motion, Error *e) {
     return good;
 }
 
-static bool find_whether_bvh(const char *path, bool *is_bvh, Error *e) {
-    char word[10] = "";
-    FILE *f = fopen(path, "rb");
-    if (!f) return error_set(e, ERR_INPUT, "cannot open '%s': %s", path, strerror(errno));
-    *is_bvh = fscanf(f, "%9s", word) == 1 && strcasecmp(word, "HIERARCHY") == 0;
-    bool good = !ferror(f) || error_set(e, ERR_INPUT, "cannot read '%s'", path);
-    fclose(f);
-    return good;
-}
-
 bool record_motion(const Input *input, const Settings *s, Digest *out, Error *e) {
+    char word[TEXT_FIRST];
     *out = 0;
-    if (strcmp(input->path, "-") == 0) return true;
+    if (!text_is_kept(input->path) || (s->asf && !text_is_kept(s->asf))) return true;
     Digest d = digest_start();
-    bool is_bvh = false;
-    if (!digest_file(&d, input->path, e) || !find_whether_bvh(input->path, &is_bvh, e)) return false;
+    if (!digest_file(&d, input->path, e)) return false;
+    text_first_word(input->path, word);
+    bool is_bvh = strcasecmp(word, "HIERARCHY") == 0;
     if (!is_bvh && !(s->asf ? digest_file(&d, s->asf, e) : add_skeletons(&d, input->path, e))) return false;
     *out = d ? d : 1;
     return true;
@@ -108,7 +109,7 @@ bool record_read(const char *folder, const RecordKey *key, Arena *arena, Record 
     Error why = {0};
     *out = (Record){0};
     snprintf(path, sizeof path, "%s/" RECORD_NAME, folder);
-    if (!key->motion) return false;
+    if (!key->motion || !key->options) return false;
     if (!text_read(path, RECORD_MAX, arena, &text, &why)) return false;
     char *rows = arena_text(arena, text.data, text.size, e), *end = NULL;
     rows = rows ? behind_head(rows) : NULL;
@@ -129,7 +130,7 @@ bool record_write(const char *folder, const RecordKey *key, const Record *r, con
                   Error *e) {
     char path[OUTPUT_PATH_MAX + 16], line[KEY_LINE];
     StatsFile f;
-    if (!key->motion) return true;
+    if (!key->motion || !key->options) return true;
     snprintf(path, sizeof path, "%s/" RECORD_NAME, folder);
     if (!stats_open(&f, path, TABLE_SUMMARY, times, e)) return false;
     key_line(key, r, line);

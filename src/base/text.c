@@ -9,6 +9,8 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#define BYTE_ORDER_MARK "\xEF\xBB\xBF"
+
 /* Reads all of f, growing by doubling since pipes have no size. */
 static char *read_all(FILE *f, const char *path, size_t limit, size_t *size, Error *e) {
     size_t capacity = 1 << 14, n = 0;
@@ -52,9 +54,9 @@ bool text_read_raw(const char *path, size_t limit, Arena *arena, Text *out, Erro
     if (!data) return false;
     *out = (Text){standard ? "<stdin>" : path, arena_text(arena, data, size, e), size};
     free(data);
-    if (out->data && strncmp(out->data, "\xEF\xBB\xBF", 3) == 0) {
-        out->data += 3;
-        out->size -= 3;
+    if (out->data && strncmp(out->data, BYTE_ORDER_MARK, sizeof BYTE_ORDER_MARK - 1) == 0) {
+        out->data += sizeof BYTE_ORDER_MARK - 1;
+        out->size -= sizeof BYTE_ORDER_MARK - 1;
     }
     return out->data != NULL;
 }
@@ -63,6 +65,23 @@ bool text_read(const char *path, size_t limit, Arena *arena, Text *out, Error *e
     if (!text_read_raw(path, limit, arena, out, e)) return false;
     return !memchr(out->data, 0, out->size) ||
            error_set(e, ERR_INPUT, "'%s' is a binary file or UTF-16, not plain text", path);
+}
+
+bool text_is_kept(const char *path) {
+    struct stat info;
+    return strcmp(path, "-") != 0 && (stat(path, &info) != 0 || S_ISREG(info.st_mode) || S_ISDIR(info.st_mode));
+}
+
+void text_first_word(const char *path, char word[TEXT_FIRST]) {
+    FILE *f = text_is_kept(path) ? fopen(path, "r") : NULL;
+    char mark[sizeof BYTE_ORDER_MARK] = "";
+    word[0] = 0;
+    if (f && (!fgets(mark, sizeof mark, f) || strcmp(mark, BYTE_ORDER_MARK) != 0)) rewind(f);
+    for (int lines = 0; f && lines < 1000 && fscanf(f, "%15s", word) == 1 && word[0] == '#'; lines++) {
+        word[0] = 0;
+        for (int c; (c = fgetc(f)) != EOF && c != '\n';) continue;
+    }
+    if (f) fclose(f);
 }
 
 Cursor text_start(const Text *text) { return (Cursor){text, text->data, text->data, 1}; }
