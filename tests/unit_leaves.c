@@ -187,12 +187,12 @@ static void mesh_lies_on_leaves(void) {
     scene_leg(&s, &pose, true, 23, 0);
     body_frame_pose(&s.posed, &pose);
     dresser_frame(d, &s.posed, 0, true, &mesh, &stats);
-    static LeafPatch leaf[MOST];
+    static Patch leaf[MOST];
     int n = dresser_leaves(d, LEAVES_CELLS, leaf, MOST), corners = 0, on = 0;
     for (int k = 0; k < n; k++)
         for (int c = 0; c < 4; c++, corners++)
             for (int v = 0; v < mesh.nvertices; v++)
-                if (vec_dist(mesh.position[v], leaf[k].patch.p[c / 2 * 3][c % 2 * 3]) < 2e-6) {
+                if (vec_dist(mesh.position[v], leaf[k].p[c / 2 * 3][c % 2 * 3]) < 2e-6) {
                     on++;
                     break;
                 }

@@ -38,7 +38,6 @@ typedef struct {
     Give *give;                    /* per vertex of the skin */
     Box skin[BODY_PARTS_MAX];      /* round each part's skin, with what has given way; world, metres */
     BodyBoxes *boxes;              /* private */
-    double seconds;                /* that posing took */
 } BodyFrame;
 
 MUST_CHECK bool body_frame_init(BodyFrame *f, const Body *body, double unit, Arena *arena, Error *e);

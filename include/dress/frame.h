@@ -76,24 +76,21 @@ MUST_CHECK bool dresser_open(const Garment *garment, const Figure *figure, const
    each panel; NULL: the statistics are enough. Allocates nothing. */
 void dresser_frame(Dresser *d, const BodyFrame *body, double dt, Tie tie, Mesh *mesh, FrameStats *stats);
 
-/* A leaf of a root patch's quadtree after the last frame, with its control points. World, metres. */
-typedef struct { Patch patch; int root, level; } LeafPatch;
-
 /* Leaves as the paper's rule splits (FrameStats.leaves), or as the solver refined them further
    (FrameStats.cells). METHOD_PAPER knows only the former. */
 typedef enum { LEAVES_BY_RULE, LEAVES_CELLS } LeafKind;
 
-/* The leaves of the last frame, at most `capacity` of them; returns how many there are. The mesh
-   lies on the cells but for the last millimetres, by which single vertices may have been moved;
+/* The control points of the last frame's leaves, at most `capacity` of them: world, metres; returns how many leaves
+   there are. The mesh lies on the cells but for the last millimetres, by which single vertices may have been moved;
    leaves by the rule are displaced as far as their own level and coarser ones go. */
-int dresser_leaves(const Dresser *d, LeafKind kind, LeafPatch *out, int capacity);
+int dresser_leaves(const Dresser *d, LeafKind kind, Patch *out, int capacity);
 
 /* The edges of the last mesh that lie on borders of leaves, each once, into room for twice the
    edges of that mesh; returns how many. */
 int dresser_borders(const Dresser *d, LeafKind kind, Edge *out);
 
 /* Facts for `inspect`. own_parts: bits 1 << role that the garment collides with. */
-typedef struct { int patches, panels, openings; unsigned own_parts; } DresserInfo;
+typedef struct { int patches, openings; unsigned own_parts; } DresserInfo;
 DresserInfo dresser_info(const Dresser *d);
 
 #endif

@@ -24,7 +24,6 @@ typedef struct { int cell; double weight[2], slope[2]; } LatticeStep;
 typedef struct {
     int count;
     int *vertex;        /* [patch][a * (2^l + 1) + b]: number of the level vertex */
-    int *place;         /* level vertex -> lattice place */
     int *first_cell;    /* count + 1: the cells round vertex v are cell[first_cell[v]] to cell[first_cell[v + 1] - 1] */
     LatticeCell *cell;
     bool *pinned;

@@ -49,7 +49,6 @@ typedef struct {
 typedef struct {
     const Lattice *lattice;
     GridRows rows[LATTICE_LEVELS]; /* at the corners of each level's facets */
-    int capacity;             /* cells tested in one go */
     Vec3 *position, *written; /* corners of facets: in metres; in output units */
     Triangle *triangle;
     LatticeCell *cell, *next;

@@ -23,7 +23,6 @@ typedef struct {
     int pairs;       /* of triangles that share a point */
     int inside;      /* vertices of the garment inside a solid of the body */
     double deepest;  /* of them; units of the meshes */
-    Vec3 where;      /* the deepest */
     int cracks;      /* vertices of the garment's border that nearly meet it */
     int borders;     /* pieces of that border */
     int worst;       /* group of the body with the most pairs and inside vertices; -1: none */

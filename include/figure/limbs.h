@@ -20,7 +20,6 @@ typedef struct {
 
 /* Two limbs of a kind that leave the trunk together. */
 typedef struct {
-    LimbKind kind;
     int hub;           /* the joint where they meet: their nearest common ancestor */
     Limb limb[2];
     double score;

@@ -9,7 +9,7 @@
 typedef struct { float x, y; } OutlinePoint;
 
 typedef struct {
-    int width, height;     /* pixels */
+    int width;             /* pixels */
     int left, top, right, bottom; /* the part of the picture that is looked at; right, bottom: behind it */
     unsigned char *crack;  /* [y * (width + 1) + x]: bits of the corner (x, y): see outline.c */
     OutlinePoint *point;   /* of the line that outline_next has found */

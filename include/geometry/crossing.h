@@ -23,7 +23,7 @@ typedef struct {
 enum { CROSSING_LEVELS = 3 };
 typedef struct {
     Vectors vectors;        /* instruction set to use; a search takes that of the edges */
-    int capacity, count;    /* items */
+    int count;              /* of items */
     const TileItems *items; /* segments or triangles */
     const Vec3 *position;   /* borrowed, as is the next: both must stay as they are until the next build */
     const int *index;       /* per item 2 (segments) or 3 (triangles) vertices */

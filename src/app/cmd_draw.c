@@ -85,11 +85,11 @@ static bool keep_borders(const Dresser *d, LeafKind kind, int nedges, Arena *are
 
 static bool keep_points(const Dresser *d, LeafKind kind, int nleaves, Vec3 shift, Arena *arena, SceneSurface *out,
                         Error *e) {
-    LeafPatch *leaf = ARENA_NEW(arena, LeafPatch, nleaves, e);
+    Patch *leaf = ARENA_NEW(arena, Patch, nleaves, e);
     Vec3 *dot = ARENA_NEW(arena, Vec3, 16 * nleaves, e);
     if (!leaf || !dot) return false;
     dresser_leaves(d, kind, leaf, nleaves);
-    for (int k = 0; k < 16 * nleaves; k++) dot[k] = vec_add(leaf[k / 16].patch.p[k / 4 % 4][k % 4], shift);
+    for (int k = 0; k < 16 * nleaves; k++) dot[k] = vec_add(leaf[k / 16].p[k / 4 % 4][k % 4], shift);
     out->ndots = 16 * nleaves;
     out->dot = dot;
     return true;

@@ -2,7 +2,6 @@
    (dress/flesh), and is rounded to the precision of the text. */
 #include "dress/bodypose.h"
 
-#include "base/clock.h"
 #include "dress/flesh.h"
 
 /* Facets are chords of the surface, which bulges out of their box by less than this share of its diagonal. */
@@ -24,7 +23,6 @@ static void find_box(BodyFrame *f, int part) {
 }
 
 void body_frame_pose(BodyFrame *f, const Pose *pose) {
-    double start = clock_seconds();
     const Body *b = f->body;
     f->pose = *pose;
     body_pose(b, pose, f->position, NULL);
@@ -39,7 +37,6 @@ void body_frame_pose(BodyFrame *f, const Pose *pose) {
     flesh_press(f);
     mesh_snap_points(f->vectors, f->position, f->unit, b->skin.nvertices, f->position);
     f->boxes->made = 0;
-    f->seconds = clock_seconds() - start;
 }
 
 void body_frame_normals(const BodyFrame *f) {

@@ -179,9 +179,8 @@ void dresser_frame(Dresser *d, const BodyFrame *body, double dt, Tie tie, Mesh *
     stats->triangles = d->solver.cloth.sheet.ntriangles;
 }
 
-static int literal_leaves(const Literal *l, LeafPatch *out, int capacity) {
-    for (int k = 0; k < l->nleaves && k < capacity; k++)
-        out[k] = (LeafPatch){l->leaf[k].patch, l->leaf[k].cell.patch, l->leaf[k].level};
+static int literal_leaves(const Literal *l, Patch *out, int capacity) {
+    for (int k = 0; k < l->nleaves && k < capacity; k++) out[k] = l->leaf[k].patch;
     return l->nleaves;
 }
 
@@ -202,7 +201,7 @@ static const Leaves *leaves_of(const Dresser *d, LeafKind kind) {
     return kind == LEAVES_BY_RULE ? &d->by_rule : &d->solver.cloth.leaves;
 }
 
-int dresser_leaves(const Dresser *d, LeafKind kind, LeafPatch *out, int capacity) {
+int dresser_leaves(const Dresser *d, LeafKind kind, Patch *out, int capacity) {
     if (d->options.method == METHOD_PAPER) return literal_leaves(&d->literal, out, capacity);
     int depth = d->lattice.depth, cells = 1 << depth, n = 0;
     for (int p = 0; p < d->fit.npatches; p++)
@@ -211,7 +210,7 @@ int dresser_leaves(const Dresser *d, LeafKind kind, LeafPatch *out, int capacity
                 int level = leaf_at(leaves_of(d, kind), p, x, y), shift = depth - level;
                 if (level < 0 || n++ >= capacity) continue;
                 LatticeCell cell = {p, x >> shift, y >> shift};
-                out[n - 1] = (LeafPatch){field_leaf(&d->solver.cloth.push.field, d->root, cell, level), p, level};
+                out[n - 1] = field_leaf(&d->solver.cloth.push.field, d->root, cell, level);
             }
     return n;
 }
@@ -223,5 +222,5 @@ int dresser_borders(const Dresser *d, LeafKind kind, Edge *out) {
 
 DresserInfo dresser_info(const Dresser *d) {
     return (DresserInfo){
-        .patches = d->fit.npatches, .panels = d->ngroups, .openings = d->fit.nopenings, .own_parts = d->fit.collide};
+        .patches = d->fit.npatches, .openings = d->fit.nopenings, .own_parts = d->fit.collide};
 }

@@ -152,13 +152,11 @@ static bool build_level(Lattice *l, int number, int *of_place, Arena *arena, Err
     LatticeLevel *level = &l->level[number];
     int cells = 1 << number, n = cells + 1, stride = l->side / cells, most = l->fit->npatches * n * n;
     level->vertex = ARENA_NEW(arena, int, most, e);
-    level->place = ARENA_NEW(arena, int, most, e);
     level->first_cell = ARENA_NEW(arena, int, most + 1, e);
     level->cell = ARENA_NEW(arena, LatticeCell, 4 * most, e);
     level->pinned = ARENA_NEW(arena, bool, most, e);
     level->step = ARENA_NEW(arena, LatticeStep, l->side + 1, e);
-    if (!level->vertex || !level->place || !level->first_cell || !level->cell || !level->pinned || !level->step)
-        return false;
+    if (!level->vertex || !level->first_cell || !level->cell || !level->pinned || !level->step) return false;
     for (int i = 0; i <= l->side; i++) level->step[i] = step_at(i, stride, cells);
     for (int k = 0; k < l->nplaces; k++) of_place[k] = -1;
     for (int p = 0; p < l->fit->npatches; p++)
@@ -167,8 +165,7 @@ static bool build_level(Lattice *l, int number, int *of_place, Arena *arena, Err
                 int place = lattice_place(l, p, a * stride, b * stride);
                 if (of_place[place] < 0) {
                     of_place[place] = level->count;
-                    level->pinned[level->count] = l->pinned[place];
-                    level->place[level->count++] = place;
+                    level->pinned[level->count++] = l->pinned[place];
                 }
                 level->vertex[(p * n + a) * n + b] = of_place[place];
             }

@@ -54,7 +54,7 @@ int leaves_count(const Leaves *leaves) {
 
 bool classifier_reserve(Classifier *c, const Lattice *lattice, Arena *arena, Error *e) {
     int n = lattice->detail, most = lattice_cells(lattice);
-    *c = (Classifier){.lattice = lattice, .capacity = most, .found_capacity = 16 * most * n + 4096};
+    *c = (Classifier){.lattice = lattice, .found_capacity = 16 * most * n + 4096};
     for (int level = 0; level <= lattice->depth; level++)
         if (!grid_rows(n << level, arena, &c->rows[level], e)) return false;
     c->position = ARENA_NEW(arena, Vec3, most * (n + 1) * (n + 1), e);

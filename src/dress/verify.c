@@ -80,10 +80,8 @@ static void find_inside(Check *c, int v) {
         if (f.other < 0 || d > f.distance) f.distance = d, f.other = nearest;
     }
     if (f.other < 0) return;
-    if (c->verdict->inside++ == 0 || f.distance > c->verdict->deepest) {
-        c->verdict->deepest = f.distance;
-        c->verdict->where = p;
-    }
+    c->verdict->inside++;
+    c->verdict->deepest = fmax(c->verdict->deepest, f.distance);
     report(c, f);
 }
 

@@ -168,8 +168,8 @@ static Limb best_limb(const Tree *t, LimbKind kind, int first, const Limb *like)
     return best;
 }
 
-static LimbPair make_pair(const Tree *t, LimbKind kind, int hub, const Limb *a, const Limb *b) {
-    LimbPair pair = {kind, hub, {*a, *b}, a->score + b->score - unlikeness(a, b)};
+static LimbPair make_pair(const Tree *t, int hub, const Limb *a, const Limb *b) {
+    LimbPair pair = {hub, {*a, *b}, a->score + b->score - unlikeness(a, b)};
     double da = sample_distance(t->sample, hub, a->joint[0]), db = sample_distance(t->sample, hub, b->joint[0]);
     double size = a->length[0] + a->length[1];
     pair.score -= MIRROR * square((da - db) / size);
@@ -182,11 +182,11 @@ static LimbPair make_pair(const Tree *t, LimbKind kind, int hub, const Limb *a, 
    each is also paired with what is best beside it on the other side. */
 static LimbPair best_pair(const Tree *t, LimbKind kind, int hub, const Limb *a, const Limb *b) {
     static const double UNLIKE = 2; /* points */
-    LimbPair best = make_pair(t, kind, hub, a, b);
+    LimbPair best = make_pair(t, hub, a, b);
     for (int way = 0; way < 2 && unlikeness(a, b) > UNLIKE; way++) {
         const Limb *kept = way ? b : a;
         Limb other = best_limb(t, kind, way ? a->first : b->first, kept);
-        LimbPair pair = make_pair(t, kind, hub, kept, &other);
+        LimbPair pair = make_pair(t, hub, kept, &other);
         if (pair.score > best.score) best = pair;
     }
     return best;

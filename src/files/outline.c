@@ -16,7 +16,7 @@ static const double SHARP = 0.5;  /* cosine of the bend from which on it is a co
 
 bool outline_reserve(Outline *o, int width, int height, Arena *arena, Error *e) {
     size_t corners = (size_t)(width + 1) * (size_t)(height + 1), n = corners / 4 + 64;
-    *o = (Outline){.width = width, .height = height, .capacity = (int)n};
+    *o = (Outline){.width = width, .capacity = (int)n};
     o->crack = ARENA_NEW(arena, unsigned char, corners, e);
     o->point = ARENA_NEW(arena, OutlinePoint, n, e);
     o->kept = ARENA_NEW(arena, unsigned char, n, e);

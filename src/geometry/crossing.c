@@ -19,7 +19,7 @@ static int lowest(unsigned lanes) { return __builtin_ctz(lanes); }
 static int tiles(int n) { return n / LANES + (n % LANES != 0); }
 
 bool crossing_reserve(CrossingSet *set, int capacity, Arena *arena, Error *e) {
-    *set = (CrossingSet){.capacity = capacity};
+    *set = (CrossingSet){0};
     for (int l = 0, n = tiles(capacity); l <= TOP; l++, n = tiles(n)) {
         set->level[l] = ARENA_NEW(arena, Tile, n, e);
         if (!set->level[l]) return false;
