@@ -2,10 +2,8 @@
    is said of files that are wrong. */
 #include "motion/motion.h"
 
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "folder.h"
 #include "session.h"

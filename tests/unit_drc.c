@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 
 #include "files/drc.h"
-#include "files/obj.h"
 #include "folder.h"
 #include "wave.h"
 #include "tap.h"

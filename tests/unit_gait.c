@@ -2,7 +2,6 @@
    forward kinematics, and held against the published angles, the ground and the clock. */
 #include "motion/gait.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "folder.h"

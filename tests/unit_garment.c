@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "garment/check.h"
 #include "tap.h"
 
 static Garment first, second; /* large; two for the round trip */

@@ -2,7 +2,6 @@
    are right however far in. */
 #include "motion/motion.h"
 
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 

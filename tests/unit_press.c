@@ -2,8 +2,6 @@
    whoever handed it over learns what went wrong. */
 #include "app/press.h"
 
-#include <string.h>
-
 #include "folder.h"
 #include "hall.h"
 #include "wave.h"

@@ -1,6 +1,4 @@
 /* The body's proportions: human, for a child as for a tall adult, on narrow hips as on broad ones. */
-#include <stdlib.h>
-#include <string.h>
 
 #include "bodies.h"
 

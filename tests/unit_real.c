@@ -1,7 +1,6 @@
 /* The shared real motions, if they are there: each opens without a warning, with the joints,
    channels and frames that are known of it; rows can be posed. KITSUKE_MOTIONS names the folder. */
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "motion/motion.h"

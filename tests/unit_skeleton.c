@@ -1,8 +1,6 @@
 /* Forward kinematics against matrices written out by hand. */
 #include "motion/skeleton.h"
 
-#include <string.h>
-
 #include "tap.h"
 
 static double worst(Mat3 a, Mat3 b) {

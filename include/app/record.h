@@ -5,7 +5,6 @@
 
 #include "app/inputs.h"
 #include "base/digest.h"
-#include "base/text.h"
 #include "files/stats.h"
 
 #define RECORD_NAME ".done"

@@ -3,7 +3,6 @@
 #ifndef FILES_MEMO_H
 #define FILES_MEMO_H
 
-#include <stdbool.h>
 #include <stddef.h>
 
 enum { MEMO_ITEMS = 16, MEMO_MOST = 4 << 20 /* bytes of an item; a larger one is not kept */ };

@@ -2,8 +2,6 @@
 #ifndef GEOMETRY_MESH_H
 #define GEOMETRY_MESH_H
 
-#include <stdint.h>
-
 #include "base/arena.h"
 #include "geometry/vec.h"
 #include "geometry/vectors.h"

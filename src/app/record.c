@@ -10,6 +10,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/text.h"
+
 enum { RECORD_MAX = 1 << 22, KEY_LINE = 200, LIST_MAX = 1 << 15 };
 
 static bool add_file(Digest *d, const char *path, Error *e) { return !path || digest_file(d, path, e); }

@@ -1,12 +1,9 @@
 /* Workers that take the next item from one atomic counter until none is left. */
 #include "base/thread.h"
 
-#include <errno.h>
 #include <pthread.h>
-#include <sched.h>
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 typedef struct {
@@ -45,11 +42,10 @@ bool thread_each(int count, int workers, void (*run)(void *, int, int), void *co
     }
     Worker *w = calloc((size_t)workers, sizeof *w);
     if (!w) return error_set(e, ERR_INTERNAL, "out of memory for %d threads", workers);
-    int started = 0, failed = 0;
+    int started = 0;
     for (; started < workers; started++) {
         w[started] = (Worker){.shared = &shared, .worker = started};
-        failed = pthread_create(&w[started].thread, NULL, work, &w[started]);
-        if (failed) break;
+        if (pthread_create(&w[started].thread, NULL, work, &w[started]) != 0) break;
     }
     if (!started) work(&w[0]); /* no thread to be had: do it here */
     for (int i = 0; i < started; i++) pthread_join(w[i].thread, NULL);

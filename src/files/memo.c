@@ -2,6 +2,7 @@
    text. Nothing here can fail: where there is no memory nothing is kept, and nothing found. */
 #include "files/memo.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /* One mesh as a file, by our writers and by what people use: fprintf, and Draco's own program. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "bench.h"
 #include "files/drc.h"
