@@ -181,7 +181,7 @@ static void rest_is_clear(Specimen *s, const char *name) {
     FrameStats stats;
     Pose rest = figure_rest_pose();
     body_frame_pose(&s->scene.posed, &rest);
-    dresser_frame(d, &s->scene.posed, 1 / 30.0, true, &mesh, &stats);
+    dresser_frame(d, &s->scene.posed, 1 / 30.0, TIE_AFRESH, &mesh, &stats);
     OK(stats.residual_edges + stats.residual_cloth + stats.inside == 0,
        "%s: nothing shows through in the canonical stance", name);
     OK(stats.displacement < 0.03, "%s: its rest shape fits the figure (moved %.1f mm)", name,

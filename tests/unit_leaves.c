@@ -186,7 +186,7 @@ static void mesh_lies_on_leaves(void) {
     Dresser *d = scene_dresser(&s, (DressOptions){0});
     scene_leg(&s, &pose, true, 23, 0);
     body_frame_pose(&s.posed, &pose);
-    dresser_frame(d, &s.posed, 0, true, &mesh, &stats);
+    dresser_frame(d, &s.posed, 0, TIE_AFRESH, &mesh, &stats);
     static Patch leaf[MOST];
     int n = dresser_leaves(d, LEAVES_CELLS, leaf, MOST), corners = 0, on = 0;
     for (int k = 0; k < n; k++)

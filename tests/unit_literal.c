@@ -15,8 +15,8 @@ static Pose raised(const Scene *s, double degrees) {
     return p;
 }
 
-static FrameStats frame(Dresser *d, Scene *s, Pose pose, bool restart, Mesh *mesh) {
-    return scene_frame(s, d, &pose, 1 / 30.0, restart, mesh);
+static FrameStats frame(Dresser *d, Scene *s, Pose pose, Tie tie, Mesh *mesh) {
+    return scene_frame(s, d, &pose, 1 / 30.0, tie, mesh);
 }
 
 static long long collider_edges(const Scene *s) {
@@ -29,9 +29,9 @@ static long long collider_edges(const Scene *s) {
 static void counts_are_the_papers(Scene *s) {
     Mesh mesh;
     long long facet_pairs = 2 * 4 * 4 * collider_edges(s);
-    FrameStats u = frame(dress(s, METHOD_PAPER, SPLIT_UNIFORM), s, raised(s, 60), true, &mesh);
-    FrameStats a = frame(dress(s, METHOD_PAPER, SPLIT_ADAPTIVE), s, raised(s, 60), true, &mesh);
-    FrameStats rest = frame(dress(s, METHOD_PAPER, SPLIT_ADAPTIVE), s, figure_rest_pose(), true, &mesh);
+    FrameStats u = frame(dress(s, METHOD_PAPER, SPLIT_UNIFORM), s, raised(s, 60), TIE_AFRESH, &mesh);
+    FrameStats a = frame(dress(s, METHOD_PAPER, SPLIT_ADAPTIVE), s, raised(s, 60), TIE_AFRESH, &mesh);
+    FrameStats rest = frame(dress(s, METHOD_PAPER, SPLIT_ADAPTIVE), s, figure_rest_pose(), TIE_AFRESH, &mesh);
     OK(u.nodes == 32 && u.leaves == 32 && u.tests == 32 * facet_pairs, "uniform: 32 patches, all pairs of each");
     OK(a.nodes > 2 && a.leaves == 2 + 3 * (a.nodes - 2) / 4, "adaptive: a split makes four of one (%d nodes)", a.nodes);
     OK(a.tests == a.nodes * facet_pairs, "adaptive: all pairs of every patch ever made");
@@ -44,8 +44,8 @@ static void rules_agree(Scene *s) {
     Dresser *ours = dress(s, METHOD_PUSH, SPLIT_ADAPTIVE), *paper = dress(s, METHOD_PAPER, SPLIT_ADAPTIVE);
     bool same = true;
     for (int degrees = 0; degrees <= 80; degrees += 5) {
-        FrameStats a = frame(ours, s, raised(s, degrees), true, &mesh);
-        FrameStats b = frame(paper, s, raised(s, degrees), true, &mesh);
+        FrameStats a = frame(ours, s, raised(s, degrees), TIE_AFRESH, &mesh);
+        FrameStats b = frame(paper, s, raised(s, degrees), TIE_AFRESH, &mesh);
         same = same && a.hits_before == b.hits_before;
         if (a.nodes == b.nodes) same = same && a.tests == b.tests;
     }
@@ -56,17 +56,17 @@ static void rules_agree(Scene *s) {
 static void the_leg_pushes_where_it_goes(Scene *s) {
     Mesh mesh;
     Dresser *d = dress(s, METHOD_PAPER, SPLIT_ADAPTIVE);
-    frame(d, s, raised(s, 26), true, &mesh);
-    FrameStats up = frame(d, s, raised(s, 30), false, &mesh);
+    frame(d, s, raised(s, 26), TIE_AFRESH, &mesh);
+    FrameStats up = frame(d, s, raised(s, 30), TIE_GOES_ON, &mesh);
     OK(up.hits_before > 0 && !up.capped && up.displacement > 0, "a rising leg pushes the cloth out (%.1f cm, %d steps)",
        100 * up.displacement, up.sweeps);
-    FrameStats far = frame(d, s, raised(s, 60), false, &mesh);
+    FrameStats far = frame(d, s, raised(s, 60), TIE_GOES_ON, &mesh);
     OK(far.capped && far.sweeps == 40, "as far as the cap allows");
-    FrameStats still = frame(d, s, raised(s, 60), false, &mesh);
+    FrameStats still = frame(d, s, raised(s, 60), TIE_GOES_ON, &mesh);
     OK(still.capped && still.displacement == 0, "a leg at rest has no direction: hits stay");
-    FrameStats first = frame(d, s, raised(s, 60), true, &mesh);
+    FrameStats first = frame(d, s, raised(s, 60), TIE_AFRESH, &mesh);
     OK(first.capped && first.displacement == 0 && first.residual_edges > 0, "nor has the first frame; it is told");
-    FrameStats down = frame(d, s, raised(s, 55), false, &mesh);
+    FrameStats down = frame(d, s, raised(s, 55), TIE_GOES_ON, &mesh);
     OK(down.hits_before > 0 && down.residual_edges + down.residual_cloth + down.inside > 0,
        "a falling leg pulls the cloth in: it still shows");
     OK(down.sweeps <= 40 && down.displacement <= 40 * 0.005 + 1e-9, "never beyond the cap");
@@ -75,7 +75,7 @@ static void the_leg_pushes_where_it_goes(Scene *s) {
 /* Every leaf is a piece of its own, on the surface where it did not move. */
 static void the_mesh_is_in_pieces(Scene *s) {
     Mesh mesh;
-    FrameStats stats = frame(dress(s, METHOD_PAPER, SPLIT_ADAPTIVE), s, raised(s, 60), true, &mesh);
+    FrameStats stats = frame(dress(s, METHOD_PAPER, SPLIT_ADAPTIVE), s, raised(s, 60), TIE_AFRESH, &mesh);
     int n = stats.leaves;
     OK(mesh.nvertices == n * 25 && mesh.ntriangles == n * 32 && mesh.nedges == n * 56,
        "a piece of 25 vertices, 32 triangles and 56 edges for each of %d leaves", n);
@@ -99,8 +99,8 @@ static void the_mesh_is_in_pieces(Scene *s) {
 static void the_global_shape_stays(Scene *s) {
     Mesh mesh;
     Dresser *d = dress(s, METHOD_GLOBAL, SPLIT_ADAPTIVE);
-    FrameStats a = frame(d, s, raised(s, 60), true, &mesh);
-    FrameStats b = frame(d, s, raised(s, 60), false, &mesh);
+    FrameStats a = frame(d, s, raised(s, 60), TIE_AFRESH, &mesh);
+    FrameStats b = frame(d, s, raised(s, 60), TIE_GOES_ON, &mesh);
     OK(a.displacement == 0 && a.residual_edges > 0 && a.sweeps == 0, "without local deformation the leg shows");
     OK(a.residual_edges == b.residual_edges && a.cells == b.cells, "nothing is carried");
 }

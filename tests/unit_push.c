@@ -19,7 +19,7 @@ static void nothing_shows(const char *name) {
         Mesh mesh;
         scene_leg(&s, &pose, true, legs[k][0], legs[k][1]);
         scene_leg(&s, &pose, false, legs[k][2], legs[k][3]);
-        FrameStats stats = scene_frame(&s, d, &pose, 1 / 30.0, true, &mesh);
+        FrameStats stats = scene_frame(&s, d, &pose, 1 / 30.0, TIE_AFRESH, &mesh);
         OK(residual(&stats) == 0, "%s: nothing shows with hips at %.0f and %.0f degrees (%d left)", name, legs[k][0],
            legs[k][2], residual(&stats));
         double cap = s.figure.height / (s.garment->loose ? 7 : 16);
@@ -36,11 +36,11 @@ static void what_is_over_fades(double rate) {
     Pose up = figure_rest_pose(), rest = figure_rest_pose();
     Mesh mesh;
     scene_leg(&s, &up, true, 90, 100);
-    FrameStats stats = scene_frame(&s, d, &up, 1 / rate, true, &mesh);
+    FrameStats stats = scene_frame(&s, d, &up, 1 / rate, TIE_AFRESH, &mesh);
     OK(stats.displacement > 0.01, "%.0f Hz: a raised knee displaces the cloth by %.3f m", rate, stats.displacement);
     double before = 0;
     for (int k = 0; k < (int)(2 * rate); k++) {
-        stats = scene_frame(&s, d, &rest, 1 / rate, false, &mesh);
+        stats = scene_frame(&s, d, &rest, 1 / rate, TIE_GOES_ON, &mesh);
         if (k == (int)(0.1 * rate)) before = stats.displacement;
     }
     OK(before > 0.001, "%.0f Hz: a tenth of a second later the cloth still remembers (%.4f m)", rate, before);
@@ -57,9 +57,9 @@ static void restart_forgets(void) {
     Mesh a, b;
     scene_leg(&s, &before, true, 100, 110);
     scene_leg(&s, &pose, false, 60, 60);
-    scene_frame(&s, used, &before, 1 / 30.0, true, &a);
-    scene_frame(&s, used, &pose, 1 / 30.0, true, &a);
-    scene_frame(&s, fresh, &pose, 1 / 30.0, true, &b);
+    scene_frame(&s, used, &before, 1 / 30.0, TIE_AFRESH, &a);
+    scene_frame(&s, used, &pose, 1 / 30.0, TIE_AFRESH, &a);
+    scene_frame(&s, fresh, &pose, 1 / 30.0, TIE_AFRESH, &b);
     bool same = a.nvertices == b.nvertices && a.ntriangles == b.ntriangles &&
                 memcmp(a.position, b.position, (size_t)a.nvertices * sizeof *a.position) == 0 &&
                 memcmp(a.triangle, b.triangle, (size_t)a.ntriangles * sizeof *a.triangle) == 0;
@@ -78,8 +78,8 @@ static void place_does_not_matter(void) {
     scene_leg(&s, &pose, true, 70, 80);
     for (int r = 0; r < ROLE_COUNT; r++) moved.bone[r] = rigid_mul(move, pose.bone[r]);
     Mesh a, b;
-    scene_frame(&s, here, &pose, 1 / 30.0, true, &a);
-    FrameStats stats = scene_frame(&s, there, &moved, 1 / 30.0, true, &b);
+    scene_frame(&s, here, &pose, 1 / 30.0, TIE_AFRESH, &a);
+    FrameStats stats = scene_frame(&s, there, &moved, 1 / 30.0, TIE_AFRESH, &b);
     double worst = 0;
     for (int v = 0; v < a.nvertices; v++)
         worst = fmax(worst, vec_dist(rigid_apply(move, a.position[v]), b.position[v]));
@@ -101,9 +101,9 @@ static void every_split(void) {
             Pose rest = figure_rest_pose(), pose = figure_rest_pose();
             Mesh first, second;
             scene_leg(&s, &pose, true, 50, 50);
-            scene_frame(&s, d, &rest, 1 / 30.0, true, &first);
+            scene_frame(&s, d, &rest, 1 / 30.0, TIE_AFRESH, &first);
             int triangles = first.ntriangles;
-            FrameStats stats = scene_frame(&s, d, &pose, 1 / 30.0, false, &second);
+            FrameStats stats = scene_frame(&s, d, &pose, 1 / 30.0, TIE_GOES_ON, &second);
             OK(residual(&stats) == 0, "--split %s%s: nothing shows", name[rule], fixed ? ", fixed topology" : "");
             OK(!fixed || second.ntriangles == triangles, "--split %s: a fixed topology stays", name[rule]);
             arena_free(&s.arena);

@@ -71,7 +71,7 @@ static void held_is_still(const char *name) {
         for (int f = 0; f < FRAMES; f++) {
             Pose pose = lifted(&s, 50 + 0.1 * sin(f * 0.3));
             Mesh mesh;
-            scene_frame(&s, dresser[k], &pose, 1 / 120.0, f == 0, &mesh);
+            scene_frame(&s, dresser[k], &pose, 1 / 120.0, f == 0 ? TIE_AFRESH : TIE_GOES_ON, &mesh);
             if (f == 0) trace_open(&trace, &s, mesh.nvertices, FRAMES);
             if (f >= SETTLED) trace_add(&trace, &mesh);
         }
@@ -93,7 +93,7 @@ static void dress_at(Scene *s, double rate, Vec3 *shape[INSTANTS], int *nvertice
     for (int f = 0; f < INSTANTS * every; f++) {
         Pose pose = lifted(s, swing(f / rate));
         Mesh mesh;
-        scene_frame(s, d, &pose, 1 / rate, f == 0, &mesh);
+        scene_frame(s, d, &pose, 1 / rate, f == 0 ? TIE_AFRESH : TIE_GOES_ON, &mesh);
         if (f % every) continue;
         *nvertices = mesh.nvertices;
         shape[f / every] = ARENA_NEW(&s->arena, Vec3, mesh.nvertices, &s->error);
@@ -137,7 +137,7 @@ static void contact_is_gentle(void) {
     for (int f = 0; f < FRAMES; f++) {
         Pose pose = scene_reaching(&s, 20 + 22 * (1 - fabs(2.0 * f / FRAMES - 1)));
         Mesh mesh;
-        FrameStats stats = scene_frame(&s, d, &pose, 1 / 120.0, f == 0, &mesh);
+        FrameStats stats = scene_frame(&s, d, &pose, 1 / 120.0, f == 0 ? TIE_AFRESH : TIE_GOES_ON, &mesh);
         if (f == 0) trace_open(&trace, &s, mesh.nvertices, FRAMES);
         trace_add(&trace, &mesh);
         touched += stats.displacement > 0.0055;
