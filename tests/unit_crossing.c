@@ -254,11 +254,10 @@ enum { SEARCHES = 4, TIMES = 200 };
 
 typedef struct { Bench *b; int hits, wrong[SEARCHES]; } Crowd;
 
-static void search_among(void *context, int item, int worker) {
+static void search_among(void *context, int item) {
     Crowd *c = context;
     CrossingCount count = {0};
     Crossing *found = c->b->found + item * c->hits;
-    (void)worker;
     int n = crossing_find(&c->b->edges, &c->b->triangles, found, c->hits, &count);
     c->wrong[item] += n != c->hits || memcmp(found, c->b->expected, (size_t)n * sizeof *found) != 0;
 }
@@ -278,7 +277,7 @@ static void test_threads(Bench *b, Error *e) {
         build_without(b, 1);
         crossing_find(&b->edges, &b->triangles, b->found, HITS, &count);
         build_without(b, 0);
-        if (!thread_each(SEARCHES, SEARCHES, search_among, &crowd, e)) abort();
+        if (!thread_each(SEARCHES, search_among, &crowd, e)) abort();
     }
     for (int i = 0; i < SEARCHES; i++) wrong += crowd.wrong[i];
     OK(wrong == 0 && crowd.hits > 100, "%d threads that search at once find the same (%d hits)", SEARCHES, crowd.hits);

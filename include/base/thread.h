@@ -1,4 +1,4 @@
-/* A fixed number of workers that take numbered items from one counter. */
+/* Pieces of work at the same time. */
 #ifndef BASE_THREAD_H
 #define BASE_THREAD_H
 
@@ -7,10 +7,8 @@
 /* Processors that this process may use, at least 1. */
 int thread_count(void);
 
-/* Calls run(context, item, worker) once for every item in 0..count-1 on up to `workers`
-   threads (worker in 0..workers-1; 1 = on the calling thread) and waits for all. Which
-   worker gets which item is not defined; each item is done exactly once. */
-MUST_CHECK bool thread_each(int count, int workers, void (*run)(void *context, int item, int worker),
-                            void *context, Error *e);
+/* Calls run(context, item) once for every item in 0..count-1, each on a thread of its own where so many can be had (a
+   single one on the calling thread), and waits for all. */
+MUST_CHECK bool thread_each(int count, void (*run)(void *context, int item), void *context, Error *e);
 
 #endif

@@ -223,11 +223,10 @@ static bool must_close(Batch *b, Slot *slot) {
     return is_over;
 }
 
-static void work(void *context, int index, int thread) {
+static void work(void *context, int index) {
     Batch *b = context;
     Worker *w = &b->worker[index];
     int chunk;
-    (void)thread;
     for (Slot *slot; (slot = next_task(b, w, &chunk));) {
         if (chunk < 0 && !open_job(b, w, slot)) {
             finish(b, slot);
@@ -305,7 +304,7 @@ ErrorKind batch_run(const Wardrobe *wardrobe, const Input *input, int count, int
     pthread_mutex_init(&b.lock, NULL);
     pthread_cond_init(&b.change, NULL);
     bool good = summary_lock(wardrobe->settings, &lock, e) && prepare(&b, arena, e) &&
-                thread_each(b.nworkers, b.nworkers, work, &b, e);
+                thread_each(b.nworkers, work, &b, e);
     progress_end(&b.progress);
     if (!good || !(is_refused(&b) || summary_write(wardrobe, input, b.result, count, total, e))) worst = e->kind;
     double seconds = clock_seconds() - b.progress.started;

@@ -1,4 +1,5 @@
-/* Workers that take the next item from one atomic counter until none is left. */
+/* Threads that take the next item from one atomic counter until none is left, so that all items are done also where
+   there are fewer threads. */
 #include "base/thread.h"
 
 #include <pthread.h>
@@ -9,15 +10,9 @@
 typedef struct {
     atomic_int next;
     int count;
-    void (*run)(void *, int, int);
+    void (*run)(void *, int);
     void *context;
 } Shared;
-
-typedef struct {
-    Shared *shared;
-    int worker;
-    pthread_t thread;
-} Worker;
 
 int thread_count(void) {
     long n = sysconf(_SC_NPROCESSORS_ONLN);
@@ -25,30 +20,20 @@ int thread_count(void) {
 }
 
 static void *work(void *argument) {
-    Worker *w = argument;
-    for (int i; (i = atomic_fetch_add(&w->shared->next, 1)) < w->shared->count;)
-        w->shared->run(w->shared->context, i, w->worker);
+    Shared *s = argument;
+    for (int i; (i = atomic_fetch_add(&s->next, 1)) < s->count;) s->run(s->context, i);
     return NULL;
 }
 
-bool thread_each(int count, int workers, void (*run)(void *, int, int), void *context, Error *e) {
+bool thread_each(int count, void (*run)(void *, int), void *context, Error *e) {
     Shared shared = {.count = count, .run = run, .context = context};
-    atomic_init(&shared.next, 0);
-    if (workers > count) workers = count;
-    if (workers <= 1) {
-        Worker alone = {.shared = &shared};
-        work(&alone);
-        return true;
-    }
-    Worker *w = calloc((size_t)workers, sizeof *w);
-    if (!w) return error_set(e, ERR_INTERNAL, "out of memory for %d threads", workers);
     int started = 0;
-    for (; started < workers; started++) {
-        w[started] = (Worker){.shared = &shared, .worker = started};
-        if (pthread_create(&w[started].thread, NULL, work, &w[started]) != 0) break;
-    }
-    if (!started) work(&w[0]); /* no thread to be had: do it here */
-    for (int i = 0; i < started; i++) pthread_join(w[i].thread, NULL);
-    free(w);
+    atomic_init(&shared.next, 0);
+    pthread_t *thread = count > 1 ? calloc((size_t)count, sizeof *thread) : NULL;
+    if (count > 1 && !thread) return error_set(e, ERR_INTERNAL, "out of memory for %d threads", count);
+    while (thread && started < count && pthread_create(&thread[started], NULL, work, &shared) == 0) started++;
+    if (!started) work(&shared); /* no thread is needed, or none to be had */
+    for (int i = 0; i < started; i++) pthread_join(thread[i], NULL);
+    free(thread);
     return true;
 }
