@@ -40,7 +40,7 @@ const char *compare_name(CompareMethod method);
 
 /* Dresses the motion in garment number g of the wardrobe and writes compare.csv, tests.svg and
    times.svg to `folder` (no pictures where there is no contact, no times with --no-times). Notes
-   and memory as in job_run; the caller resets the arena. Fills all of *out but the names. */
+   and memory as in job_open; the caller resets the arena. Fills all of *out but the names. */
 void compare_run(const Wardrobe *wardrobe, int g, const Input *input, const char *folder, Arena *arena, ObjWriter *obj,
                  Notes *notes, ComparePair *out);
 

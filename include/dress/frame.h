@@ -1,4 +1,4 @@
-/* One frame from end to end: a garment on a moving body. Read frame.c from top to bottom and you know the method.
+/* One frame from end to end: a garment on a moving body. Read dresser_frame in frame.c and you know the method.
 
    Words of this floor:
      worn over     A garment is worn over some parts of the body (`collide` in its file): its own parts. All other

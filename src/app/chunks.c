@@ -1,4 +1,4 @@
-/* Where chunks begin. What a frame's cloth takes over from the frame before sinks by centimetres in a
+/* Where chunks begin. What a frame's cloth takes over from the frame before sinks by a centimetre in a
    tenth of a second, then fades by a fifth every thirtieth (dress/field.c); WARM_UP seconds are enough
    for the most that cloth is ever displaced, a seventh of the height. So a chunk that warms up so long
    begins as if it had been there all the time, to within the digits that are written. Every machine and

@@ -25,7 +25,7 @@ bool folder_has_files(const char *path) {
     return found;
 }
 
-/* stats.csv, or NAME.DIGITS.obj or .drc with at least four digits; any of them with .tmp behind. */
+/* The record, stats.csv, or NAME.DIGITS.obj or .drc with at least four digits; any of them with .tmp behind. */
 static bool is_ours(const char *name) {
     size_t n = strlen(name), digits = 0;
     if (n > 4 && strcmp(name + n - 4, ".tmp") == 0) n -= 4;

@@ -1,10 +1,11 @@
 /* One motion from end to end: opened by one thread, dressed by as many as come, closed by the last.
 
-   Opening comes first and touches no file: the motion, which joint is which bone, the figure, the
-   body and the garments fitted to it. Then the frames, in chunks (see lane.c). Chunks may finish in
-   any order; their rows wait until all before them are written, so that stats.csv reads as if one
-   thread had done it all. No more chunks are given out than there are places to wait, which
-   bounds the memory. At last, when everything is on the disk, comes the record that says so. */
+   Opening comes first: the motion, which joint is which bone, the figure, the body and the garments
+   fitted to it; only when all of that is good is the output touched. Then the frames, in chunks (see
+   lane.c). Chunks may finish in any order; their rows wait until all before them are written, so that
+   stats.csv reads as if one thread had done it all. No more chunks are given out than there are places
+   to wait, which bounds the memory. At last, when everything is on the disk, comes the record that says
+   so. */
 #include "app/job.h"
 
 #include <pthread.h>

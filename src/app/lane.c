@@ -5,8 +5,8 @@
    While one frame is dressed the body is posed for the next. That, each of the frame's garments and
    its body mesh do not wait for each other: they are the pieces that free threads take (see crew.c).
 
-   Read lane_run from its end upwards. Everything that a frame needs is taken before the first
-   one; memory does not grow with the number of frames. A chunk begins with fresh dressers, for then it
+   Begin with lane_run, at the end. Everything that a frame needs is taken before the first one;
+   memory does not grow with the number of frames. A chunk begins with fresh dressers, for then it
    cannot know what its thread has dressed before. */
 #include "app/lane.h"
 

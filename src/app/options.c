@@ -1,4 +1,4 @@
-/* From the words of a command line to Settings, and from the table to the help page.
+/* From the words of a command line to Settings.
 
    GNU manners: options and operands in any order, `--` ends the options, `--name=value` and
    `--name value`, `-o DIR` and `-oDIR`, switches in clusters (`-qf`), the last one wins. A

@@ -1,6 +1,6 @@
 /* The table of options. One row is all there is to an option: add it here, and it is parsed, range-checked,
    explained in the help, suggested when it is mistyped and, because a job file's keys are the long names, understood
-   there too. Nothing else in the program knows an option's name. */
+   there too. Elsewhere names of options stand only in messages, and in options.c, where two contradict each other. */
 #include "app/settings.h"
 
 #include <string.h>

@@ -117,7 +117,7 @@ static double missing_behind(const Push *p, Vec3 at) {
 }
 
 /* Adds a vertex of the skin to the last block, or to a new one. Vertices that follow each other are near each other, so
-   a ball round sixteen rules out most of them at once. */
+   the ball round a block rules out most of them at once. */
 static void add_point(Hollow *h, const Push *p, Vec3 at) {
     double deep = vec_dot(at, h->way) + PUSH_MARGIN * p->field.scale - missing_behind(p, at);
     if (h->npoints % HOLLOW_BLOCK == 0)
