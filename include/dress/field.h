@@ -77,11 +77,8 @@ static inline Vec3 field_limit(Vec3 d, double cap, bool *capped) {
     return vec_scale(d, cap / sqrt(n2));
 }
 
-MUST_CHECK bool field_reserve_spots(FieldSpots *s, int nplaces, Arena *arena, Error *e);
-
-/* field_set_spot gives a place a vector, field_drop_spots drops all. */
+/* Gives a place a vector. */
 void field_set_spot(FieldSpots *s, int place, Vec3 d);
-void field_drop_spots(FieldSpots *s);
 
 static inline bool field_is_zero(Vec3 d) { return d.x == 0 && d.y == 0 && d.z == 0; }
 

@@ -9,11 +9,6 @@
 MUST_CHECK bool figure_measure(const Motion *m, const FigureOptions *options, const Sample *sample, Rest *rest,
                                Notes *notes, Figure *f, Error *e);
 
-/* Sets the canonical stance: the reference adult made k times as large, but with the given lengths (metres). hips and
-   shoulders: distance between the joints; torso: from hip line to shoulder line; ankle: its height over the sole. */
-typedef struct { double hips, thigh, shin, ankle, torso, shoulders, upper_arm, forearm, hand; } Lengths;
-void figure_shape(double k, const Lengths *lengths, Figure *f);
-
 /* How far an ankle usually is over the ball of a flat foot, in statures. */
 #define FIGURE_FOOT_RISE (0.06 / FIGURE_STATURE)
 

@@ -11,10 +11,7 @@ typedef enum { SVG_START, SVG_MIDDLE, SVG_END } SvgAnchor;
 void svg_open(FILE *out, double width, double height, const char *title);
 void svg_close(FILE *out);
 
-/* A coordinate with one digit behind the point, and none that says nothing: "12", "0.5", "-3.1". */
-void svg_number(FILE *out, double x);
-
-/* Two of them, apart from each other and from a number in front of them. */
+/* Two coordinates, apart from each other. */
 void svg_point(FILE *out, double x, double y);
 
 /* Text whose foot stands at (x, y), read upwards where it is turned. Any bytes may be in it. */

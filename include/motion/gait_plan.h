@@ -14,8 +14,6 @@ typedef struct {
     int count;               /* of risers */
 } GaitGround;
 
-double gait_ground_height(const GaitGround *ground, double z);
-
 /* A step of the walk, as the whole body sees it. */
 typedef struct {
     Footfall foot;

@@ -9,7 +9,7 @@ static const double SINK = 0.12;   /* but cloth goes back no faster than that, m
 static const double FELT = 0.0002; /* metres on 1.70 m: a displacement below this is dropped */
 static const double CAP_LOOSE = 7, CAP_TIGHT = 20; /* the cap is the height divided by this */
 
-bool field_reserve_spots(FieldSpots *s, int nplaces, Arena *arena, Error *e) {
+static bool reserve_spots(FieldSpots *s, int nplaces, Arena *arena, Error *e) {
     s->at = ARENA_NEW(arena, Vec3, nplaces, e);
     s->is_listed = ARENA_NEW(arena, bool, nplaces, e);
     s->place = ARENA_NEW(arena, int, nplaces, e);
@@ -27,7 +27,7 @@ static void drop_spot(FieldSpots *s, int place) {
     s->at[place] = vec(0, 0, 0);
 }
 
-void field_drop_spots(FieldSpots *s) {
+static void drop_spots(FieldSpots *s) {
     for (int k = 0; k < s->n; k++) drop_spot(s, s->place[k]);
     s->n = 0;
 }
@@ -43,8 +43,8 @@ bool field_reserve(Field *f, const Lattice *lattice, Arena *arena, Error *e) {
         f->start[l + 1] = f->start[l] + (l <= lattice->depth ? lattice->level[l].count : 0);
     f->displacement = ARENA_NEW(arena, Vec3, f->start[LATTICE_LEVELS], e);
     for (int limb = 0; limb < LIMBS; limb++)
-        if (!field_reserve_spots(&f->dent[limb], lattice->nplaces, arena, e)) return false;
-    return f->displacement && field_reserve_spots(&f->offset, lattice->nplaces, arena, e);
+        if (!reserve_spots(&f->dent[limb], lattice->nplaces, arena, e)) return false;
+    return f->displacement && reserve_spots(&f->offset, lattice->nplaces, arena, e);
 }
 
 void field_set_dents(Field *f, int place, Dents dents) {
@@ -52,17 +52,17 @@ void field_set_dents(Field *f, int place, Dents dents) {
 }
 
 void field_drop_dents(Field *f) {
-    for (int limb = 0; limb < LIMBS; limb++) field_drop_spots(&f->dent[limb]);
+    for (int limb = 0; limb < LIMBS; limb++) drop_spots(&f->dent[limb]);
 }
 
 void field_forget(Field *f) {
     memset(f->displacement, 0, (size_t)f->start[LATTICE_LEVELS] * sizeof *f->displacement);
-    field_drop_spots(&f->offset);
+    drop_spots(&f->offset);
     field_drop_dents(f);
 }
 
 void field_copy(const Field *from, Field *to) {
-    field_drop_spots(&to->offset);
+    drop_spots(&to->offset);
     field_drop_dents(to);
     to->pelvis = from->pelvis;
     memcpy(to->displacement, from->displacement, (size_t)from->start[LATTICE_LEVELS] * sizeof *to->displacement);

@@ -8,6 +8,10 @@
 
 #include "figure/upright.h"
 
+/* Metres. hips and shoulders: distance between the joints; torso: from hip line to shoulder line; ankle: its height
+   over the sole. */
+typedef struct { double hips, thigh, shin, ankle, torso, shoulders, upper_arm, forearm, hand; } Lengths;
+
 /* The reference adult, metres. */
 static const double ABOVE_SHOULDERS = 0.315;
 static const double HIP_HEIGHT = 0.885, SHOULDER_HEIGHT = 1.385;
@@ -23,7 +27,8 @@ static void set_pair(Figure *f, Role left, Role right, Vec3 start, Vec3 end) {
     f->end[right] = vec(-end.x, end.y, end.z);
 }
 
-void figure_shape(double k, const Lengths *l, Figure *f) {
+/* Sets the canonical stance: the reference adult made k times as large, but with the given lengths. */
+static void set_stance(double k, const Lengths *l, Figure *f) {
     double hip_y = l->ankle + l->shin + l->thigh, shoulder_y = hip_y + l->torso;
     double t = l->torso / (SHOULDER_HEIGHT - HIP_HEIGHT); /* stretches the spine */
     Vec3 at[6] = {{0, hip_y, 0}, {0, hip_y + 0.115 * t, -0.01 * k}, {0, hip_y + 0.285 * t, -0.01 * k},
@@ -50,7 +55,7 @@ void figure_shape(double k, const Lengths *l, Figure *f) {
 
 Figure figure_reference(void) {
     Figure f = {.unit = 1, .unit_name = "m", .up = 'y', .upright = mat_identity(), .rest = "reference"};
-    figure_shape(1, &adult, &f);
+    set_stance(1, &adult, &f);
     for (int r = 0; r < ROLE_COUNT; r++) {
         f.roles.joint[r] = f.toward[r] = -1;
         f.bind[r] = rigid_identity();
@@ -293,6 +298,6 @@ bool figure_measure(const Motion *m, const FigureOptions *options, const Sample 
     Lengths kept = human_lengths(&measured, f->unit, k);
     f->legs_out = 0.5 * (kept.hips - measured.hips * f->unit);
     f->arms_out = 0.5 * (kept.shoulders - measured.shoulders * f->unit);
-    figure_shape(k, &kept, f);
+    set_stance(k, &kept, f);
     return true;
 }

@@ -25,24 +25,25 @@ void svg_open(FILE *out, double width, double height, const char *title) {
 
 void svg_close(FILE *out) { fputs("</svg>\n", out); }
 
-void svg_number(FILE *out, double x) {
+/* A coordinate with one digit behind the point, and none that says nothing: "12", "0.5", "-3.1". */
+static void put_number(FILE *out, double x) {
     double tenths = floor(x * 10 + 0.5);
     if (fmod(tenths, 10) == 0) fprintf(out, "%.0f", tenths == 0 ? 0 : tenths / 10);
     else fprintf(out, "%.1f", tenths / 10);
 }
 
 void svg_point(FILE *out, double x, double y) {
-    svg_number(out, x);
+    put_number(out, x);
     if (floor(y * 10 + 0.5) >= 0) fputc(' ', out); /* a minus parts numbers by itself */
-    svg_number(out, y);
+    put_number(out, y);
 }
 
 void svg_text(FILE *out, double x, double y, double size, SvgAnchor anchor, const char *text) {
     static const char *const names[] = {"", " text-anchor=\"middle\"", " text-anchor=\"end\""};
     fputs("<text x=\"", out);
-    svg_number(out, x);
+    put_number(out, x);
     fputs("\" y=\"", out);
-    svg_number(out, y);
+    put_number(out, y);
     fprintf(out, "\" font-size=\"%.0f\" fill=\"#000\"%s>", size, names[anchor]);
     put_escaped(out, text);
     fputs("</text>\n", out);

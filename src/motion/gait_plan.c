@@ -26,7 +26,7 @@
 #define LIFT_DOWN (-45.0)
 #define STRIKE_DOWN (-18.0)
 
-double gait_ground_height(const GaitGround *g, double z) {
+static double ground_height(const GaitGround *g, double z) {
     double stairs = g->count > 0 ? clamp(floor((z - g->first) / g->run) + 1, 0, g->count) * g->rise : 0;
     return stairs + z * tan(g->slope * PI / 180);
 }
@@ -67,7 +67,7 @@ static void follow_track(const GaitPlan *plan, int k, GaitStep *step) {
         z = tread(plan, k < above ? k - before : plan->ground.count);
         if (k > above) z += walked(plan, k) - walked(plan, above);
     }
-    step->centre = vec(0, gait_ground_height(&plan->ground, z), z);
+    step->centre = vec(0, ground_height(&plan->ground, z), z);
     step->heading = 0;
 }
 
@@ -117,7 +117,7 @@ static void shape_bend(const GaitPlan *plan, const GaitStep *from, const GaitSte
 /* Ground as a careful walker sees it: risers are a little thicker than they are. */
 static double cautious_height(const GaitPlan *plan, double z) {
     double room = 0.5 * RISER_ROOM * plan->body.height;
-    return fmax(gait_ground_height(&plan->ground, z - room), gait_ground_height(&plan->ground, z + room));
+    return fmax(ground_height(&plan->ground, z - room), ground_height(&plan->ground, z + room));
 }
 
 /* Lifts the swinging foot over what stands in its way. */
