@@ -14,6 +14,10 @@ typedef struct {
     Facing facing; /* of the skin */
 } Wearer;
 
+/* How the settings want a motion opened, and its figure built. */
+MotionOptions wearer_motion_options(const Settings *s);
+FigureOptions wearer_figure_options(const Settings *s);
+
 /* Reads the motion, finds its figure and fits the body of the wardrobe to it. unit: output units
    per metre of what is dressed. Clear `out` with {0}; wearer_close must follow, whatever the
    result. ERR_INPUT for what the motion lacks. Memory from arena. */

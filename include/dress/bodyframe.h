@@ -40,6 +40,7 @@ typedef struct {
     BodyBoxes *boxes;              /* private */
 } BodyFrame;
 
+/* Takes the memory for all poses of a body, which must outlive it. unit: output units per metre. */
 MUST_CHECK bool body_frame_init(BodyFrame *f, const Body *body, double unit, Arena *arena, Error *e);
 
 /* The normal at a vertex of a part's skin, where nothing presses on it. */

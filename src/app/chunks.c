@@ -50,8 +50,7 @@ Chunk chunks_get(const Chunks *c, int i) {
 }
 
 int chunks_most(const Chunks *c) {
-    int most = 0, whole = (c->span.last - c->span.first) / c->span.step + 1;
-    if (c->count == 1) return whole;
-    most = (c->length + c->length / 2) / c->span.step + 1;
-    return most < whole ? most : whole;
+    int whole = (c->span.last - c->span.first) / c->span.step + 1;
+    int most = (c->length + c->length / 2) / c->span.step + 1;
+    return c->count > 1 && most < whole ? most : whole;
 }

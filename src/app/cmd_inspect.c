@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/take.h"
+#include "app/wearer.h"
 #include "files/csv.h"
 
 enum { MODEL_FILE_MAX = 1 << 20 };
@@ -126,7 +127,7 @@ static bool inspect_figure(const Motion *m, const Settings *s, const RoleFile *f
     Roles roles;
     Figure figure;
     Error why = {0};
-    FigureOptions options = {s->unit, s->scale, (char)s->up};
+    FigureOptions options = wearer_figure_options(s);
     if (!roles_read(m, file, arena, notes, &roles, &why)) {
         if (s->roles || why.kind != ERR_INPUT) return *e = why, false;
         printf("  %s\n", why.text); /* no human skeleton, and what it lacks */
@@ -138,8 +139,7 @@ static bool inspect_figure(const Motion *m, const Settings *s, const RoleFile *f
 }
 
 static bool inspect_motion(const char *path, const Settings *s, const RoleFile *roles, Arena *arena, Error *e) {
-    MotionOptions options = {.asf = s->asf, .fps = s->fps, .position = (PositionRule)s->position,
-                             .max_joints = s->max_joints, .max_frames = s->max_frames};
+    MotionOptions options = wearer_motion_options(s);
     Notes notes = {0};
     Motion motion = {0};
     bool good = motion_open(path, &options, arena, &notes, &motion, e);

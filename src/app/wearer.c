@@ -2,6 +2,13 @@
    and nowhere else, so that every command sees the same figure. */
 #include "app/wearer.h"
 
+MotionOptions wearer_motion_options(const Settings *s) {
+    return (MotionOptions){.asf = s->asf, .fps = s->fps, .position = (PositionRule)s->position,
+                           .max_joints = s->max_joints, .max_frames = s->max_frames};
+}
+
+FigureOptions wearer_figure_options(const Settings *s) { return (FigureOptions){s->unit, s->scale, (char)s->up}; }
+
 static bool make_frame(Wearer *w, double unit, Arena *arena, Error *e) {
     const Mesh *skin = &w->body.skin;
     return body_frame_init(&w->posed, &w->body, unit, arena, e) &&
@@ -11,9 +18,8 @@ static bool make_frame(Wearer *w, double unit, Arena *arena, Error *e) {
 bool wearer_open(const Wardrobe *wardrobe, const char *path, double unit, Arena *arena, Notes *notes, Wearer *out,
                  Error *e) {
     const Settings *s = wardrobe->settings;
-    MotionOptions options = {.asf = s->asf, .fps = s->fps, .position = (PositionRule)s->position,
-                             .max_joints = s->max_joints, .max_frames = s->max_frames};
-    FigureOptions figure = {s->unit, s->scale, (char)s->up};
+    MotionOptions options = wearer_motion_options(s);
+    FigureOptions figure = wearer_figure_options(s);
     Roles roles;
     return motion_open(path, &options, arena, notes, &out->motion, e) &&
            roles_read(&out->motion, &wardrobe->roles, arena, notes, &roles, e) &&

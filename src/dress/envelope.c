@@ -25,7 +25,6 @@ static const double SPARE_CM2 = 10;    /* width of the soft corner where the leg
 static const double LAP_LEAST_CM = 14, LAP_MOST_CM = 26; /* below the hip joints: where the lap of a bent hip begins */
 static const double TURNS_CM[2] = {-3, 10}; /* below the hip joints: where rings turn most */
 static const double CORNER_CM = 2;     /* width of the soft corners where the lap begins, and beside the outside */
-enum { RIDE_STEPS = 6 };
 static const double TIGHT = 1.1;       /* the last ring climbs if legs need more than so many times its size, */
 static const double CLIMBS = 0.4;      /* by no more than this share of its way from the hip joints, */
 static const double HALF_CLIMBS = 0.32; /* by half of that if they need so much more than TIGHT */
@@ -244,10 +243,11 @@ static Vec3 pelvis_point(const Envelope *env, double s, double x, double z) {
 /* The x at which x + rise * smoothstep(a, b, x) is y; rise >= 0. Newton's method from the middle of the step, on either
    side of which the slope only falls, comes nearer from that side alone. */
 static double before_step(double a, double b, double rise, double y) {
+    enum { STEPS = 6 };
     if (y <= a) return y;
     if (y >= b + rise) return y - rise;
     double x = 0.5 * (a + b);
-    for (int k = 0; k < RIDE_STEPS; k++) {
+    for (int k = 0; k < STEPS; k++) {
         double t = clamp((x - a) / (b - a), 0, 1);
         x -= (x + rise * t * t * (3 - 2 * t) - y) / (1 + rise * 6 * t * (1 - t) / (b - a));
     }

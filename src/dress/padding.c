@@ -28,15 +28,14 @@ static Vec3 side_of(const BodyPart *part, Vec3 p) {
 /* p belongs to the nearest part, and to both legs where it is as near to one as to the other. */
 static void add_sample(const Body *body, unsigned collide, Vec3 p, double most, Padding *sum) {
     double least = 1;
-    Vec3 normal;
     for (int i = 0; i < body->nparts; i++) {
         const BodyPart *part = &body->part[i];
         if (collide >> part->role & 1)
-            least = fmin(least, body_distance(part, rigid_unapply(part->frame, p), least, &normal));
+            least = fmin(least, body_distance(part, rigid_unapply(part->frame, p), least, NULL));
     }
     for (int i = 0; i < body->nparts; i++) {
         const BodyPart *part = &body->part[i];
-        Vec3 local = rigid_unapply(part->frame, p);
+        Vec3 normal, local = rigid_unapply(part->frame, p);
         if (!(collide >> part->role & 1) || body_distance(part, local, least + SAME, &normal) >= least + SAME) continue;
         normal = mat_apply(part->frame.r, normal);
         int place = (int)(clamp((local.y - part->low) / (part->high - part->low), 0, 1) * (PADDING_PLACES - 1) + 0.5);

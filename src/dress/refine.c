@@ -106,8 +106,10 @@ static void cross_cells(Classifier *c, const BodyFrame *body, int ncells, Classi
     for (int p = 0; p < body->body->nparts; p++) {
         if (!(c->lattice->fit->collide & part_bit(body, p))) continue;
         const CrossingSet *edges = body_frame_edges(body, p, cloth);
-        if (!edges) out->count.pairs_all += (long long)body->body->part[p].nedges * ncells * ntriangles;
-        if (!edges) continue;
+        if (!edges) { /* nothing to find, but pairs all the same */
+            out->count.pairs_all += (long long)body->body->part[p].nedges * ncells * ntriangles;
+            continue;
+        }
         int before = out->count.hits;
         int found = (c->plain ? crossing_find_plainly : crossing_find)(edges, &c->set, c->found, c->found_capacity,
                                                                        &out->count);
@@ -131,7 +133,7 @@ static void test_cells(Classifier *c, const Patch *root, const BodyFrame *body, 
         unsigned parts = c->lattice->fit->patch[c->cell[k].patch].collide;
         c->hit[k] = c->hit[k] || body_frame_any_inside(body, parts, c->position + k * npoints, npoints);
     }
-    if (level == 0 || out->nodes == 0) out->hits += out->count.hits;
+    if (out->nodes == 0) out->hits = out->count.hits;
     out->nodes += ncells;
 }
 
