@@ -105,7 +105,7 @@ static void every_split(void) {
             int triangles = first.ntriangles;
             FrameStats stats = scene_frame(&s, d, &pose, 1 / 30.0, TIE_GOES_ON, &second);
             OK(residual(&stats) == 0, "--split %s%s: nothing shows", name[rule], fixed ? ", fixed topology" : "");
-            OK(!fixed || second.ntriangles == triangles, "--split %s: a fixed topology stays", name[rule]);
+            if (fixed) OK(second.ntriangles == triangles, "--split %s: a fixed topology stays", name[rule]);
             arena_free(&s.arena);
         }
 }

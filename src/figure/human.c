@@ -239,7 +239,8 @@ static void set_arm(const Tree *t, const Limb *l, int right, Roles *out) {
 
 /* --- the human --- */
 
-/* left: +1 if limb 0 of each pair is on the left, by `same_side`. Either pair may be NULL. */
+/* left: +1 if limb 0 of the legs is the left one, else -1; same: likewise, if limb 0 of the arms is on its side. Either
+   pair may be NULL. */
 static void set_limbs(const Tree *t, const Limbs *limbs, int left, int same, Roles *out) {
     for (int i = 0; i < 2; i++) {
         if (limbs->legs) set_leg(t, &limbs->legs->limb[i], (i == 0) != (left > 0), out);

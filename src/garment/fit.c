@@ -126,9 +126,7 @@ static unsigned panel_pins(const Garment *g, int panel, int row) {
 static Vec3 arc_at(const FitCurve *c, double s) {
     double b[4];
     bezier_basis(s, b, NULL);
-    Vec3 p = vec_scale(c->rest[0], b[0]);
-    for (int i = 1; i < 4; i++) p = vec_mad(p, c->rest[i], b[i]);
-    return p;
+    return bezier_cubic(c->rest, b);
 }
 
 static void make_panel_patch(Tailor *t, int p, int k) {

@@ -66,8 +66,8 @@ bool check_area(const RawPatch *patch, Why *why) {
     return area > NO_AREA || refuse(why, "patch '%s' is degenerate: its 16 points span no area", patch->name);
 }
 
-/* One end of a seam, step by step: a point of a raw patch, a station of a panel's row for start
-   and end, or the up to three stations of an arc for top and bottom. */
+/* A side of a panel, step by step: a station of each row for start and end, the up to three stations of an arc for top
+   and bottom. */
 typedef struct {
     int n;
     int ring[GARMENT_ROWS_MAX];
