@@ -14,7 +14,7 @@
 /* Caps and tolerances, metres on a figure of 1.70 m where they are lengths. */
 enum { SWEEPS_MAX = 30, STALL = 3, ROUNDS_MAX = 3 };
 static const double REACH = 0.015;   /* vertices farther from the body are no samples in the first round, */
-static const double REACHES_ON = 0.03; /* and farther than this in later ones, which follow if one moved the reach */
+static const double REACHES_ON = 0.02; /* and farther than this in later ones, which follow if one moved the reach */
 static const double SLACK = 0.1;     /* share of the clearance that may be missing after the sweeps */
 static const double PIN_GIVES = 0.2; /* a pinned level vertex of the finest level moves this share of what a free one
                                         would, */
@@ -177,7 +177,7 @@ static void add_sample(Push *p, int vertex, int place, unsigned parts, double fa
 /* Makes a sample of every vertex that is near to such a part. */
 static void find_samples(Push *p) {
     const Sheet *sheet = p->sheet;
-    double far = (PUSH_MARGIN + REACH) * p->field.scale;
+    double far = PUSH_MARGIN * p->field.scale + p->reach;
     p->nsamples = 0;
     memset(p->patch_travel, 0, (size_t)p->lattice->fit->npatches * sizeof *p->patch_travel);
     memset(p->travel, 0, (size_t)p->field.start[LATTICE_LEVELS] * sizeof *p->travel);
