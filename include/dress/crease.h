@@ -1,4 +1,4 @@
-/* What folds do to cloth that follows the bones (dress/follow). */
+/* What folds do to the global shape (dress/follow). */
 #ifndef DRESS_CREASE_H
 #define DRESS_CREASE_H
 
