@@ -25,9 +25,9 @@ MUST_CHECK bool text_read(const char *path, size_t limit, Arena *arena, Text *ou
 MUST_CHECK bool text_read_raw(const char *path, size_t limit, Arena *arena, Text *out, Error *e);
 
 /* The first word of a file that is no comment, cut to fit: "garment", "HIERARCHY". Empty for what is no regular file:
-   what is read from a pipe is gone for who reads it next. */
+   what is read from a pipe is gone for who reads it next. ERR_INPUT if it cannot be opened. */
 enum { TEXT_FIRST = 16 };
-void text_first_word(const char *path, char word[TEXT_FIRST]);
+MUST_CHECK bool text_first_word(const char *path, char word[TEXT_FIRST], Error *e);
 
 /* Can the file be read again, as a pipe cannot? Yes for one that is not there: whoever reads it says so. */
 bool text_is_kept(const char *path);

@@ -240,7 +240,7 @@ static bool inspect_body(const Text *text, Arena *arena, Error *e) {
 static bool inspect(const char *path, const Settings *s, const RoleFile *roles, Arena *arena, Error *e) {
     char word[TEXT_FIRST];
     Text text;
-    text_first_word(path, word);
+    if (!text_first_word(path, word, e)) return false;
     bool is_garment = strcmp(word, "garment") == 0, is_body = strcmp(word, "body") == 0;
     if (s->joints || (!is_garment && !is_body)) return inspect_motion(path, s, roles, arena, e);
     if (!text_read(path, MODEL_FILE_MAX, arena, &text, e)) return false;

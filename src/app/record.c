@@ -82,8 +82,7 @@ bool record_motion(const Input *input, const Settings *s, Digest *out, Error *e)
     *out = 0;
     if (!text_is_kept(input->path) || (s->asf && !text_is_kept(s->asf))) return true;
     Digest d = digest_start();
-    if (!digest_file(&d, input->path, e)) return false;
-    text_first_word(input->path, word);
+    if (!digest_file(&d, input->path, e) || !text_first_word(input->path, word, e)) return false;
     bool is_bvh = strcasecmp(word, "HIERARCHY") == 0;
     if (!is_bvh && !(s->asf ? digest_file(&d, s->asf, e) : add_skeletons(&d, input->path, e))) return false;
     *out = d ? d : 1;

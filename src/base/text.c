@@ -72,16 +72,19 @@ bool text_is_kept(const char *path) {
     return strcmp(path, "-") != 0 && (stat(path, &info) != 0 || S_ISREG(info.st_mode) || S_ISDIR(info.st_mode));
 }
 
-void text_first_word(const char *path, char word[TEXT_FIRST]) {
-    FILE *f = text_is_kept(path) ? fopen(path, "r") : NULL;
+bool text_first_word(const char *path, char word[TEXT_FIRST], Error *e) {
     char mark[sizeof BYTE_ORDER_MARK] = "";
     word[0] = 0;
-    if (f && (!fgets(mark, sizeof mark, f) || strcmp(mark, BYTE_ORDER_MARK) != 0)) rewind(f);
-    for (int lines = 0; f && lines < 1000 && fscanf(f, "%15s", word) == 1 && word[0] == '#'; lines++) {
+    if (!text_is_kept(path)) return true;
+    FILE *f = fopen(path, "r");
+    if (!f) return error_set(e, ERR_INPUT, "cannot open '%s': %s", path, strerror(errno));
+    if (!fgets(mark, sizeof mark, f) || strcmp(mark, BYTE_ORDER_MARK) != 0) rewind(f);
+    for (int lines = 0; lines < 1000 && fscanf(f, "%15s", word) == 1 && word[0] == '#'; lines++) {
         word[0] = 0;
         for (int c; (c = fgetc(f)) != EOF && c != '\n';) continue;
     }
-    if (f) fclose(f);
+    fclose(f);
+    return true;
 }
 
 Cursor text_start(const Text *text) { return (Cursor){text, text->data, text->data, 1}; }
