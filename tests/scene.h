@@ -48,12 +48,16 @@ static inline Dresser *scene_dresser(Scene *s, DressOptions options) {
     return d;
 }
 
-/* Turns a bone, and all that hang on it, about its start by `degrees` (forwards is positive). */
-static inline void scene_bend(const Scene *s, Pose *p, Role bone, Role last, double degrees) {
-    Mat3 turn = mat_axis_angle(vec(-1, 0, 0), degrees * PI / 180);
+/* Turns a bone, and those that hang on it up to `last`, about its start. */
+static inline void scene_turn(const Scene *s, Pose *p, Role bone, Role last, Mat3 turn) {
     Vec3 pivot = rigid_apply(p->bone[bone], s->figure.start[bone]);
     Rigid about = {turn, vec_sub(pivot, mat_apply(turn, pivot))};
     for (int r = (int)bone; r <= (int)last; r++) p->bone[r] = rigid_mul(about, p->bone[r]);
+}
+
+/* The same by `degrees` to the front (forwards is positive). */
+static inline void scene_bend(const Scene *s, Pose *p, Role bone, Role last, double degrees) {
+    scene_turn(s, p, bone, last, mat_axis_angle(vec(-1, 0, 0), degrees * PI / 180));
 }
 
 /* A leg raised at the hip and bent at the knee, degrees. */
@@ -66,10 +70,7 @@ static inline void scene_leg(const Scene *s, Pose *p, bool left, double hip, dou
 /* The left arm, turned from the bind pose about an axis through the shoulder. */
 static inline Pose scene_arm_turned(const Scene *s, Vec3 axis, double degrees) {
     Pose pose = figure_rest_pose();
-    Mat3 turn = mat_axis_angle(axis, degrees * PI / 180);
-    Vec3 pivot = s->figure.start[ROLE_LEFT_UPPER_ARM];
-    Rigid about = {turn, vec_sub(pivot, mat_apply(turn, pivot))};
-    for (int r = ROLE_LEFT_UPPER_ARM; r <= ROLE_LEFT_HAND; r++) pose.bone[r] = rigid_mul(about, pose.bone[r]);
+    scene_turn(s, &pose, ROLE_LEFT_UPPER_ARM, ROLE_LEFT_HAND, mat_axis_angle(axis, degrees * PI / 180));
     return pose;
 }
 

@@ -44,8 +44,7 @@ static void a_fold_does_not_turn_over(Scene *s) {
         Vec3 to = mat_apply(mat_axis_angle(vec(1, 0, 0), degrees * PI / 180), up);
         Mat3 turn = mat_between(vec_unit_or(vec_sub(s->figure.end[ROLE_LEFT_THIGH], hip), up), to);
         Pose pose = figure_rest_pose();
-        for (int r = ROLE_LEFT_THIGH; r < ROLE_RIGHT_THIGH; r++)
-            pose.bone[r] = (Rigid){turn, vec_sub(hip, mat_apply(turn, hip))};
+        scene_turn(s, &pose, ROLE_LEFT_THIGH, ROLE_LEFT_TOE, turn);
         Fold f = fold_of(s, &pose, ROLE_LEFT_THIGH);
         if (degrees < 50) most = fmax(most, acos(clamp(vec_dot(f.across, before), -1, 1)) * 180 / PI);
         before = f.across;

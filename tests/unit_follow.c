@@ -47,6 +47,20 @@ static double most_stretched(Specimen *c, const Pose *pose, Vec3 *rest) {
     return most;
 }
 
+/* How deep the first rows of the global shape of a pose go through a part, at the most; metres. */
+static double deepest_in(Specimen *c, const Pose *pose, Role part, int rows) {
+    Scene *s = &c->scene;
+    double deepest = 0;
+    body_frame_pose(&s->posed, pose);
+    follow_pose(&c->follower, pose, c->root);
+    for (int place = 0; place < c->lattice.nplaces; place++) {
+        if (c->fit.patch[c->lattice.owner[place].patch].row >= rows) continue;
+        Vec3 at = lattice_point(&c->lattice, c->root, place);
+        deepest = fmax(deepest, -body_frame_distance(&s->posed, s->body.of_role[part], at, 0, NULL));
+    }
+    return deepest;
+}
+
 /* The left arm from where it hangs until it points straight up. */
 static void raised_arms_stretch_little(void) {
     Specimen c;
@@ -75,12 +89,7 @@ static void cloth_rides_up_round_the_seat(void) {
             scene_leg(s, &pose, true, left, left);
             scene_leg(s, &pose, false, left - less, left);
             most = fmax(most, most_stretched(&c, &pose, rest));
-            body_frame_pose(&s->posed, &pose);
-            for (int place = 0; place < c.lattice.nplaces; place++) {
-                Vec3 at = lattice_point(&c.lattice, c.root, place);
-                int pelvis = s->body.of_role[ROLE_PELVIS];
-                deepest = fmax(deepest, -body_frame_distance(&s->posed, pelvis, at, 0, NULL));
-            }
+            deepest = fmax(deepest, deepest_in(&c, &pose, ROLE_PELVIS, GARMENT_ROWS_MAX));
         }
     OK(most > 1.5 && most < 1.95, "round the seat of who sits a skirt is spread, to %.2f times its length", most);
     OK(deepest < 0.005, "and goes no deeper through it than %.0f mm before it is pushed", 1e3 * deepest);
@@ -98,10 +107,7 @@ static void trousers_ride_up_a_raised_thigh(void) {
         for (int out = 0; out <= 60; out += 30) {
             Pose pose = figure_rest_pose();
             scene_leg(s, &pose, true, degrees, degrees);
-            Mat3 turn = mat_axis_angle(vec(0, 1, 0), out * PI / 180);
-            Vec3 pivot = s->figure.start[ROLE_LEFT_THIGH];
-            Rigid about = {turn, vec_sub(pivot, mat_apply(turn, pivot))};
-            for (int r = ROLE_LEFT_THIGH; r < ROLE_RIGHT_THIGH; r++) pose.bone[r] = rigid_mul(about, pose.bone[r]);
+            scene_turn(s, &pose, ROLE_LEFT_THIGH, ROLE_LEFT_TOE, mat_axis_angle(vec(0, 1, 0), out * PI / 180));
             most = fmax(most, most_stretched(&c, &pose, rest));
         }
     OK(most > 1.5 && most < 2.2, "between crotch and raised thigh trousers are stretched to %.2f times", most);
@@ -119,14 +125,7 @@ static void waists_stay_between_belly_and_thigh(void) {
             Pose pose = figure_rest_pose();
             scene_leg(s, &pose, true, left, left);
             scene_leg(s, &pose, false, right, right);
-            body_frame_pose(&s->posed, &pose);
-            follow_pose(&c.follower, &pose, c.root);
-            for (int place = 0; place < c.lattice.nplaces; place++) {
-                if (c.fit.patch[c.lattice.owner[place].patch].row > 0) continue;
-                Vec3 at = lattice_point(&c.lattice, c.root, place);
-                int thigh = s->body.of_role[ROLE_LEFT_THIGH];
-                deepest = fmax(deepest, -body_frame_distance(&s->posed, thigh, at, 0, NULL));
-            }
+            deepest = fmax(deepest, deepest_in(&c, &pose, ROLE_LEFT_THIGH, 1));
         }
     OK(deepest < 0.035, "between belly and thigh a skirt's waist goes %.0f mm through the thigh", 1e3 * deepest);
     arena_free(&s->arena);
@@ -170,12 +169,9 @@ static void cloth_climbs_between_legs_that_are_far_apart(void) {
         Pose step = figure_rest_pose(), straddle = step;
         scene_leg(s, &step, true, degrees, 0);
         scene_leg(s, &step, false, -degrees, 0);
-        for (int r = ROLE_LEFT_THIGH; r < ROLE_COUNT; r++) {
-            bool left = r < ROLE_RIGHT_THIGH;
-            Mat3 turn = mat_axis_angle(vec(0, 0, left ? 1 : -1), degrees * PI / 180);
-            Vec3 pivot = s->figure.start[left ? ROLE_LEFT_THIGH : ROLE_RIGHT_THIGH];
-            straddle.bone[r] = (Rigid){turn, vec_sub(pivot, mat_apply(turn, pivot))};
-        }
+        Mat3 outwards = mat_axis_angle(vec(0, 0, 1), degrees * PI / 180);
+        scene_turn(s, &straddle, ROLE_LEFT_THIGH, ROLE_LEFT_TOE, outwards);
+        scene_turn(s, &straddle, ROLE_RIGHT_THIGH, ROLE_RIGHT_TOE, mat_transpose(outwards));
         most = fmax(most, fmax(most_stretched(&c, &step, rest), most_stretched(&c, &straddle, rest)));
     }
     OK(most > 1.5 && most < 2.5, "between legs that are far apart a skirt is spread, to %.2f times its length", most);

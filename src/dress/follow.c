@@ -98,7 +98,6 @@ static void keep_curve(const Follower *f, const Pose *pose, int above, int below
 static void curves_by_bones(Follower *f, const Pose *pose) {
     Blender b = blender_of(f->figure, pose);
     Armpits armpits = armpits_find(f->figure, f->body, pose);
-    f->folds = folds_find(f->body, pose);
     for (int c = 0; c < f->fit->ncurves; c++) {
         const FitCurve *curve = &f->fit->curve[c];
         for (int end = 0; end < 2; end++) {
@@ -112,7 +111,6 @@ static void curves_by_bones(Follower *f, const Pose *pose) {
         }
     }
     ride_up(f->fit, f->figure, pose, f->curve, f->up);
-    for (int c = 0; c < f->fit->ncurves; c++) keep_curve(f, pose, c, c, f->curve[c]);
 }
 
 /* Derivatives across the rows at row r by the parabola through three rows (Bessel), at the first
@@ -214,8 +212,6 @@ static void curves_by_envelope(Follower *f, const Pose *pose) {
                 f->slope[p][r][0][k] = f->slope[p][r][1][k] = envelope_slope(&env, s, curve->unit[k]);
         }
     straighten_handles(f);
-    f->folds = folds_find(f->body, pose);
-    for (int c = 0; c < fit->ncurves; c++) keep_curve(f, pose, c, c, f->curve[c]);
 }
 
 /* Parameter length from row r to the next: of an envelope the arc length down the body, by which its slopes are
@@ -259,13 +255,12 @@ static void follow_raw(const Follower *f, const FitPatch *patch, const Pose *pos
 
 void follow_pose(Follower *f, const Pose *pose, Patch *out) {
     const Fit *fit = f->fit;
-    bool by_envelope = fit->garment->follow == FOLLOW_ENVELOPE;
-    if (by_envelope && fit->npanels > 0) {
-        curves_by_envelope(f, pose);
-    } else {
-        curves_by_bones(f, pose);
-        slopes_by_rows(f);
-    }
+    bool by_envelope = fit->garment->follow == FOLLOW_ENVELOPE && fit->npanels > 0;
+    if (by_envelope) curves_by_envelope(f, pose);
+    else curves_by_bones(f, pose);
+    f->folds = folds_find(f->body, pose);
+    for (int c = 0; c < fit->ncurves; c++) keep_curve(f, pose, c, c, f->curve[c]);
+    if (!by_envelope) slopes_by_rows(f);
     share_slopes(f);
     for (int p = 0; p < fit->npatches; p++) {
         if (fit->patch[p].panel < 0) {
