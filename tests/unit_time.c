@@ -107,7 +107,7 @@ static void rate_does_not_matter(const char *name) {
     Scene s;
     scene_open(&s, name);
     Vec3 *best[INSTANTS], *other[INSTANTS];
-    int n;
+    int n = 0;
     dress_at(&s, 120, best, &n);
     for (int r = 0; r < 2; r++) {
         double worst = 0, sum = 0;
