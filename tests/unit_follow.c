@@ -202,6 +202,37 @@ static void a_split_turns_no_skirt_over(void) {
     arena_free(&s->arena);
 }
 
+/* The least cosine, over the rings, between the pelvis's left and the line from a ring's right side to its left one. */
+static double least_to_the_left(Specimen *c, const Pose *pose) {
+    const Fit *fit = &c->fit;
+    double least = 1;
+    follow_pose(&c->follower, pose, c->root);
+    for (int k = 0; k < fit->ncurves; k++) {
+        Vec3 across = vec_sub(c->follower.curve[k][0], c->follower.curve[k][3]); /* in front they begin on the left */
+        if (fit->curve[k].unit[1][1] < 0) across = vec_scale(across, -1);
+        least = fmin(least, vec_dot(mat_column(pose->bone[ROLE_PELVIS].r, 0), vec_unit_or(across, vec(0, 0, 0))));
+    }
+    return least;
+}
+
+/* One thigh comes to the belly and beyond; the other one is raised, and goes outwards. */
+static void sides_of_a_skirt_stay_at_the_sides(void) {
+    Specimen c;
+    specimen_open(&c, "skirt", DETAIL, DEPTH);
+    Scene *s = &c.scene;
+    double least = 1;
+    for (int left = 90; left <= 170; left += 10)
+        for (int out = 0; out <= 60; out += 10) {
+            Pose pose = figure_rest_pose();
+            scene_leg(s, &pose, true, left, left);
+            scene_leg(s, &pose, false, 110, 110);
+            scene_turn(s, &pose, ROLE_RIGHT_THIGH, ROLE_RIGHT_TOE, mat_axis_angle(vec(0, -1, 0), out * PI / 180));
+            least = fmin(least, least_to_the_left(&c, &pose));
+        }
+    OK(least > 0.6, "a skirt's sides stay left and right of who squats, within %.0f degrees", acos(least) * 180 / PI);
+    arena_free(&s->arena);
+}
+
 int main(void) {
     folds_are_mitres();
     raised_arms_stretch_little();
@@ -211,5 +242,6 @@ int main(void) {
     cloth_climbs_between_legs_that_are_far_apart();
     arms_across_the_chest_crush_nothing();
     a_split_turns_no_skirt_over();
+    sides_of_a_skirt_stay_at_the_sides();
     return tap_done();
 }

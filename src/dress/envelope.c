@@ -13,6 +13,7 @@ static const double SHIN_SHARE = 0.5;  /* share of the shin's turn that the path
                                           would fold behind a bent knee, with 0 the shin would stick out */
 static const double ROUNDING_CM = 10;  /* half width of the window: a thigh's radius */
 static const double TURN_LIMIT = 115 * PI / 180; /* a ring turns no farther from the pelvis: it would pass the seat */
+static const double OVER = 150 * PI / 180; /* and one that is turned backwards by more has come there forwards */
 static const double SLANT_LIMIT = 0.4; /* least cosine between a leg and a ring's axis: a leg that slants more is cut as
                                           if it had this one */
 static const double ABOVE_CM = 8, BELOW_CM = 10; /* above and below the hip joints, where rings turn from the pelvis to
@@ -139,15 +140,18 @@ static Sym2 root_of(Sym2 c) {
 /* max(0, x) with a soft corner of width r. */
 static double soft_positive(double x, double r) { return 0.5 * (x + sqrt(x * x + r * r)); }
 
-/* The axes of a ring as columns (left, up, front): those of the pelvis, turned so that down becomes t, by TURN_LIMIT at
-   most. */
+/* The axes of a ring as columns (left, up, front): those of the pelvis, turned so that down becomes t, by TURN_LIMIT
+   at most. They turn about left first, and to the side then. One turn on the shortest way would turn the ring
+   about t too, and by more than half a right angle if thighs at the belly are a little to one side. */
 static Mat3 ring_axes(const Envelope *env, Vec3 t) {
-    double angle = acos(clamp(vec_dot(t, env->down), -1, 1));
-    if (angle > TURN_LIMIT) {
-        Vec3 across = vec_unit_or(vec_mad(t, env->down, -vec_dot(t, env->down)), mat_column(env->pelvis, 2));
-        t = vec_add(vec_scale(env->down, cos(TURN_LIMIT)), vec_scale(across, sin(TURN_LIMIT)));
-    }
-    return mat_mul(mat_between(env->down, t), env->pelvis);
+    Vec3 left = mat_column(env->pelvis, 0), front = mat_column(env->pelvis, 2);
+    double aside = clamp(vec_dot(t, left), -1, 1), rest = sqrt(1 - aside * aside);
+    double forwards = atan2(vec_dot(t, front), vec_dot(t, env->down));
+    if (forwards < -OVER) forwards += 2 * PI;
+    forwards = clamp(forwards, -TURN_LIMIT, TURN_LIMIT);
+    Vec3 sagittal = vec_add(vec_scale(env->down, cos(forwards)), vec_scale(front, sin(forwards)));
+    Vec3 up = vec_mad(vec_scale(left, -aside), sagittal, -rest), x = vec_mad(vec_scale(left, rest), sagittal, -aside);
+    return mat_columns(x, up, vec_cross(x, up));
 }
 
 /* Where the plane through `at` with unit normal n cuts the leg that runs through p along t; no farther from p than
