@@ -175,6 +175,31 @@ static void field_is_held(void) {
     arena_free(&s->arena);
 }
 
+/* Pushes piled up at the same vertices on all levels, in directions that nearly agree. */
+static void nothing_beyond_the_cap_is_carried(void) {
+    Specimen c;
+    Field field;
+    specimen_open(&c, "trousers", 4, 2);
+    Scene *s = &c.scene;
+    Pose rest = figure_rest_pose();
+    need(s, field_reserve(&field, &c.lattice, &s->arena, &s->error));
+    body_frame_pose(&s->posed, &rest);
+    for (int k = 0; k < field.start[LATTICE_LEVELS]; k++) {
+        Vec3 way = vec_unit_or(vec_mad(vec(1, 0, 0), dice_point(), 0.2), vec(1, 0, 0));
+        field.displacement[k] = vec_scale(way, field.cap);
+    }
+    double before = 0, after = 0;
+    for (int round = 0; round < 2; round++) {
+        double *most = round ? &after : &before;
+        for (int place = 0; place < c.lattice.nplaces; place++)
+            *most = fmax(*most, vec_len(field_at(&field, field_levels(&field), place)));
+        field_carry(&field, &s->posed, 0, false, &c.leaves);
+    }
+    OK(before > 2.5 * field.cap && after < 1.05 * field.cap, "of %.1f caps that have piled up %.2f are carried on",
+       before / field.cap, after / field.cap);
+    arena_free(&s->arena);
+}
+
 /* A thigh raised into the skirt: all but the vertices with offsets lie on the leaves. */
 static void mesh_lies_on_leaves(void) {
     enum { MOST = 4096 };
@@ -209,6 +234,7 @@ int main(void) {
     leaves_are_the_surface("paper-skirt");
     leaves_are_the_surface("trousers");
     field_is_held();
+    nothing_beyond_the_cap_is_carried();
     mesh_lies_on_leaves();
     return tap_done();
 }

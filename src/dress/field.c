@@ -97,6 +97,38 @@ static void carry_spots(FieldSpots *s, const Carry *c) {
     }
 }
 
+/* The displacement at a lattice point, by some levels. */
+static Vec3 sum_of(const Field *f, unsigned levels, LatticeIndex at) {
+    Vec3 d = {0, 0, 0};
+    for (int level = 0; levels >> level; level++) {
+        if (!(levels >> level & 1)) continue;
+        LatticeWeights of = lattice_weights(f->lattice, level, at);
+        for (int k = 0; k < 4; k++) d = vec_mad(d, f->displacement[f->start[level] + of.vertex[k]], of.weight[k]);
+    }
+    return d;
+}
+
+/* Shortens the vector of a level at a corner of its cells, so that with those of coarser levels it is no longer than
+   the cap. */
+static void keep_to_cap(Field *f, int level, int patch, int a, int b) {
+    int n = (1 << level) + 1, size = f->lattice->side >> level;
+    Vec3 *d = &f->displacement[f->start[level] + f->lattice->level[level].vertex[(patch * n + a) * n + b]];
+    if (field_is_zero(*d)) return;
+    bool is_beyond = false;
+    Vec3 coarser = sum_of(f, (1u << level) - 1, (LatticeIndex){patch, a * size, b * size});
+    Vec3 sum = field_limit(vec_add(coarser, *d), f->cap, &is_beyond);
+    if (is_beyond) *d = vec_sub(sum, coarser);
+}
+
+/* Where the body leaves no room, pushes pile up on all levels: each keeps to the cap, and so does the cloth, but not
+   their sum. Carried on, it would hold the cloth where it is for long after the body has gone. */
+static void drop_beyond_cap(Field *f) {
+    for (int level = 0; level <= f->lattice->depth; level++)
+        for (int patch = 0; patch < f->lattice->fit->npatches; patch++)
+            for (int a = 0; a <= 1 << level; a++)
+                for (int b = 0; b <= 1 << level; b++) keep_to_cap(f, level, patch, a, b);
+}
+
 /* Fading lets the cloth sink into the part that holds it, and the solver pushes it out again. If it sank by
    centimetres, it would be pushed out on whichever side is nearest, on one side in one frame and on another in the
    next. */
@@ -104,6 +136,7 @@ void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leave
     const Lattice *l = f->lattice;
     Carry c = field_carry_to(f, body, dt);
     if (restart) field_forget(f);
+    drop_beyond_cap(f);
     for (int level = 0; level <= l->depth; level++)
         for (int v = 0; v < l->level[level].count; v++)
             if (field_carry_one(&f->displacement[f->start[level] + v], &c)) leaves_open(leaves, level, v);
@@ -143,16 +176,7 @@ unsigned field_levels(const Field *f) {
     return used;
 }
 
-Vec3 field_at(const Field *f, unsigned levels, int place) {
-    LatticeIndex at = f->lattice->owner[place];
-    Vec3 d = {0, 0, 0};
-    for (int level = 0; levels >> level; level++) {
-        if (!(levels >> level & 1)) continue;
-        LatticeWeights of = lattice_weights(f->lattice, level, at);
-        for (int k = 0; k < 4; k++) d = vec_mad(d, f->displacement[f->start[level] + of.vertex[k]], of.weight[k]);
-    }
-    return d;
-}
+Vec3 field_at(const Field *f, unsigned levels, int place) { return sum_of(f, levels, f->lattice->owner[place]); }
 
 Vec3 field_normal(const Field *f, const Patch *root, unsigned levels, int place) {
     const Lattice *l = f->lattice;
