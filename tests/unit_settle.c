@@ -1,22 +1,19 @@
 /* The last millimetres: what single vertices are asked for, how far they go for it, and the way back. */
-#include "specimen.h"
+#include "worn.h"
 
 #include <string.h>
-
-#include "dress/attempt.h"
 
 /* A garment on a deep crouch, pushed as a whole, but only by its coarsest level and not as far as it should be: there
    is something left to be settled. */
 typedef struct {
-    Specimen of;
-    Cloth cloth;
+    Worn worn;
     PushResult result;
     double margin, longest; /* metres: what vertices keep, and the longest offset of one */
 } Pushed;
 
 /* Pushes to a share of the cap. */
 static void push_short(Pushed *p, double share) {
-    Cloth *c = &p->cloth;
+    Cloth *c = &p->worn.cloth;
     double cap = c->push.field.cap;
     c->push.field.cap = share * cap;
     push_solve(&c->push, &p->result);
@@ -24,23 +21,13 @@ static void push_short(Pushed *p, double share) {
 }
 
 static void push(Pushed *p, const char *name, double share) {
-    specimen_open(&p->of, name, 5, 2);
-    Scene *s = &p->of.scene;
-    Cloth *c = &p->cloth;
+    worn_open(&p->worn, name, 5, 2);
+    Scene *s = &p->worn.of.scene;
+    Cloth *c = &p->worn.cloth;
     Pose pose = figure_rest_pose();
-    need(s, cloth_reserve(c, &p->of.fit, &p->of.lattice, &s->arena, &s->error));
-    escape_bind(&c->push.escape, p->of.root);
     scene_leg(s, &pose, true, 120, 120);
     scene_leg(s, &pose, false, 60, 110);
-    body_frame_pose(&s->posed, &pose);
-    follow_pose(&p->of.follower, &pose, p->of.root);
-    c->root = p->of.root;
-    leaves_fill(&c->leaves, 2);
-    tessellate(&c->sheet, &c->leaves);
-    leaves_fill(&c->leaves, 0);
-    c->push.coarser = 1;
-    push_start(&c->push, &s->posed, c->root, &c->leaves, &c->sheet);
-    settle_start(&c->settler);
+    worn_pose(&p->worn, &pose, 0);
     p->result = (PushResult){0};
     push_short(p, share);
     p->margin = PUSH_MARGIN * c->push.field.scale;
@@ -49,23 +36,23 @@ static void push(Pushed *p, const char *name, double share) {
 
 /* How much of its clearance a vertex is missing from the parts that it is worn over. */
 static double missing(Pushed *p, int v) {
-    const BodyFrame *body = &p->of.scene.posed;
-    const Push *push = &p->cloth.push;
+    const BodyFrame *body = &p->worn.of.scene.posed;
+    const Push *push = &p->worn.cloth.push;
     double clearance = push->clearance[v], least = clearance;
     for (int k = 0; k < body->body->nparts; k++)
-        if (escape_is_own(&push->escape, body, p->cloth.sheet.place[v], k))
+        if (escape_is_own(&push->escape, body, p->worn.cloth.sheet.place[v], k))
             least = fmin(least, body_frame_distance(body, k, push->point[v], clearance, NULL));
     return clearance - least;
 }
 
 static int count_missing(Pushed *p, double more) {
     int n = 0;
-    for (int v = 0; v < p->cloth.sheet.nvertices; v++) n += missing(p, v) > more;
+    for (int v = 0; v < p->worn.cloth.sheet.nvertices; v++) n += missing(p, v) > more;
     return n;
 }
 
 static double longest_offset(const Pushed *p) {
-    const FieldSpots *offset = &p->cloth.push.field.offset;
+    const FieldSpots *offset = &p->worn.cloth.push.field.offset;
     double longest = 0;
     for (int k = 0; k < offset->n; k++) longest = fmax(longest, vec_len(offset->at[offset->place[k]]));
     return longest;
@@ -74,7 +61,7 @@ static double longest_offset(const Pushed *p) {
 static void gives_the_rest(const char *name, double share) {
     static Pushed p;
     push(&p, name, share);
-    Cloth *c = &p.cloth;
+    Cloth *c = &p.worn.cloth;
     int before = count_missing(&p, 0.2 * p.margin), inside = count_missing(&p, p.margin);
     settle_all(&c->settler, &c->push, &p.result.capped);
     int after = count_missing(&p, 0.2 * p.margin), still = count_missing(&p, p.margin);
@@ -91,27 +78,27 @@ static void gives_the_rest(const char *name, double share) {
         elsewhere += vec_dist(c->push.global[v], x) < field->cap && vec_dist(x, c->push.point[v]) > 1e-9;
     }
     OK(elsewhere == 0, "a vertex is where field, offset and dent say (%d are not)", elsewhere);
-    arena_free(&p.of.scene.arena);
+    arena_free(&p.worn.of.scene.arena);
 }
 
 static void gives_no_more(void) {
     static Pushed p;
     bool capped = false;
     push(&p, "trousers", 0.3);
-    Cloth *c = &p.cloth;
+    Cloth *c = &p.worn.cloth;
     for (int v = 0; v < c->sheet.nvertices; v++) c->push.global[v].x += 0.05; /* into both legs */
     c->push.near_known = false;
     push_short(&p, 0.01);
     settle_all(&c->settler, &c->push, &capped);
     OK(capped && fabs(longest_offset(&p) - p.longest) < 1e-9 && count_missing(&p, p.margin) > 0,
        "what lies deeper is left there, and the cap told (%d vertices inside)", count_missing(&p, p.margin));
-    arena_free(&p.of.scene.arena);
+    arena_free(&p.worn.of.scene.arena);
 }
 
 static void raises(void) {
     static Pushed p;
     push(&p, "trousers", 0.3);
-    Cloth *c = &p.cloth;
+    Cloth *c = &p.worn.cloth;
     double *asked = &c->push.clearance[7], scale = c->push.field.scale;
     OK(settle_raise(&c->settler, &c->push, 7, 0.002, 0.003), "a vertex is asked for 2 mm more");
     NEAR(*asked, p.margin + 0.002 * scale, 1e-12, "and for no more");
@@ -121,7 +108,7 @@ static void raises(void) {
     for (int k = 0; k < 20; k++) (void)settle_raise(&c->settler, &c->push, 7, 0.002, 1);
     NEAR(*asked, p.margin + 0.015 * scale, 1e-12, "never for more than 15 mm");
     OK(c->settler.nraised == 1 && c->settler.raised[0] == 7, "it is one raised vertex");
-    arena_free(&p.of.scene.arena);
+    arena_free(&p.worn.of.scene.arena);
 }
 
 /* Everything that settling has moved since a mark. */
@@ -129,7 +116,7 @@ static void goes_back(void) {
     static Pushed p;
     static Vec3 point[1 << 14], offset[1 << 14], dent[LIMBS][1 << 14];
     push(&p, "trousers", 0.3);
-    Cloth *c = &p.cloth;
+    Cloth *c = &p.worn.cloth;
     FieldSpots *spots = &c->push.field.offset;
     for (int v = 0; v < c->sheet.nvertices && c->settler.nraised < MARKED_MOST; v++)
         if (missing(&p, v) > 0) (void)settle_raise(&c->settler, &c->push, v, 0.005, 1);
@@ -157,22 +144,22 @@ static void goes_back(void) {
     settle_mark(&c->settler, &c->push);
     OK(c->settler.nraised > MARKED_MOST && !settle_restore(&c->settler, &c->push),
        "too many to remember (%d) are not taken back", c->settler.nraised);
-    arena_free(&p.of.scene.arena);
+    arena_free(&p.worn.of.scene.arena);
 }
 
 /* How far the point of a hit is from its part. */
 static double hit_distance(Pushed *p, const TesterHit *hit) {
     Vec3 x = {0, 0, 0};
-    for (int k = 0; k < hit->n; k++) x = vec_mad(x, p->cloth.push.point[hit->v[k]], hit->weight[k]);
-    return body_frame_distance(&p->of.scene.posed, hit->part, x, 1, NULL);
+    for (int k = 0; k < hit->n; k++) x = vec_mad(x, p->worn.cloth.push.point[hit->v[k]], hit->weight[k]);
+    return body_frame_distance(&p->worn.of.scene.posed, hit->part, x, 1, NULL);
 }
 
 static void moves_hits_off(void) {
     static Pushed p;
     FrameStats stats = {0};
     push(&p, "trousers", 0.1);
-    Cloth *c = &p.cloth;
-    const BodyFrame *body = &p.of.scene.posed;
+    Cloth *c = &p.worn.cloth;
+    const BodyFrame *body = &p.worn.of.scene.posed;
     Wrong w = attempt_test(c, body, &stats);
     int early = 0, off = 0, own = 0;
     double least = INFINITY;
@@ -192,7 +179,7 @@ static void moves_hits_off(void) {
     OK(own > 0 && early == 0, "%d hits (%d edges): nothing moves that was not raised", own, w.own.edges);
     OK(off >= own - own / 20, "%d of %d are then off their part by half the distance (least %.1f mm)", off, own,
        1000 * least);
-    arena_free(&p.of.scene.arena);
+    arena_free(&p.worn.of.scene.arena);
 }
 
 int main(void) {

@@ -1,49 +1,40 @@
 /* Hollows with anything wanted anywhere in a skirt, on somebody who crouches: no edge is stretched too far, nothing is
    shallower than that takes, and the order of the edges does not matter. */
-#include "specimen.h"
+#include "worn.h"
 
 #include <string.h>
-
-#include "dress/attempt.h"
 
 static const double STRETCH = 2.3, SHRINKS = 0.8; /* as in src/dress/slope.c */
 enum { MOST = 1 << 14 };
 
 typedef struct {
-    Specimen of;
-    Cloth cloth;
+    Worn worn;
     Slopes slopes;
     double *wanted[LIMBS], *depth[LIMBS];
 } Cut;
 
 static void open(Cut *t) {
-    specimen_open(&t->of, "skirt", 5, 1);
-    Scene *s = &t->of.scene;
-    Cloth *c = &t->cloth;
+    worn_open(&t->worn, "skirt", 5, 1);
+    Scene *s = &t->worn.of.scene;
     Pose pose = figure_rest_pose();
-    need(s, cloth_reserve(c, &t->of.fit, &t->of.lattice, &s->arena, &s->error));
-    need(s, slopes_reserve(&t->slopes, &t->of.lattice, &s->arena, &s->error));
+    need(s, slopes_reserve(&t->slopes, &t->worn.of.lattice, &s->arena, &s->error));
     for (int limb = 0; limb < LIMBS; limb++) {
-        t->wanted[limb] = ARENA_NEW(&s->arena, double, t->of.lattice.nplaces, &s->error);
-        t->depth[limb] = ARENA_NEW(&s->arena, double, t->of.lattice.nplaces, &s->error);
+        t->wanted[limb] = ARENA_NEW(&s->arena, double, t->worn.of.lattice.nplaces, &s->error);
+        t->depth[limb] = ARENA_NEW(&s->arena, double, t->worn.of.lattice.nplaces, &s->error);
         need(s, t->wanted[limb] && t->depth[limb]);
     }
-    escape_bind(&c->push.escape, t->of.root);
     scene_leg(s, &pose, true, 100, 120);
     scene_leg(s, &pose, false, 60, 110);
-    body_frame_pose(&s->posed, &pose);
-    follow_pose(&t->of.follower, &pose, t->of.root);
-    c->push.coarser = 1;
-    push_start(&c->push, &s->posed, t->of.root, &t->of.leaves, &t->of.sheet);
-    push_rest(&c->push);
+    worn_pose(&t->worn, &pose, 1);
+    push_rest(&t->worn.cloth.push);
 }
 
 /* Bumps anywhere, and in every tenth place no room. */
 static void want(Cut *t, int limb) {
-    const Push *p = &t->cloth.push;
+    const Push *p = &t->worn.cloth.push;
     Vec3 middle[4];
     for (int k = 0; k < 4; k++) middle[k] = p->point[dice_below((unsigned)p->sheet->nvertices)];
-    t->cloth.push.field.way[limb] = vec_unit_or(dice_around(), vec(1, 0, 0));
+    t->worn.cloth.push.field.way[limb] = vec_unit_or(dice_around(), vec(1, 0, 0));
     for (int v = 0; v < p->sheet->nvertices; v++) {
         t->wanted[limb][v] = 0;
         for (int k = 0; k < 4 && dice_below(10) > 0; k++)
@@ -53,14 +44,14 @@ static void want(Cut *t, int limb) {
 }
 
 static Vec3 moved(const Cut *t, int v) {
-    Vec3 x = t->cloth.push.point[v];
-    for (int limb = 0; limb < LIMBS; limb++) x = vec_mad(x, t->cloth.push.field.way[limb], t->depth[limb][v]);
+    Vec3 x = t->worn.cloth.push.point[v];
+    for (int limb = 0; limb < LIMBS; limb++) x = vec_mad(x, t->worn.cloth.push.field.way[limb], t->depth[limb][v]);
     return x;
 }
 
 /* By how many metres an edge between two points is longer than it may be, for vertices that were not pressed in. */
 static double too_long(const Cut *t, int a, int b, Vec3 at_a, Vec3 at_b) {
-    const Push *p = &t->cloth.push;
+    const Push *p = &t->worn.cloth.push;
     const Vec3 *rest = p->escape.rest;
     double most = STRETCH * vec_dist(rest[p->sheet->place[a]], rest[p->sheet->place[b]]);
     return vec_dist(at_a, at_b) - fmax(most, vec_dist(p->point[a], p->point[b]));
@@ -68,8 +59,8 @@ static double too_long(const Cut *t, int a, int b, Vec3 at_a, Vec3 at_b) {
 
 static double longest_of_all(const Cut *t) {
     double most = -INFINITY;
-    for (int k = 0; k < t->of.sheet.nedges; k++) {
-        int a = t->of.sheet.edge[k].v[0], b = t->of.sheet.edge[k].v[1];
+    for (int k = 0; k < t->worn.cloth.sheet.nedges; k++) {
+        int a = t->worn.cloth.sheet.edge[k].v[0], b = t->worn.cloth.sheet.edge[k].v[1];
         most = fmax(most, too_long(t, a, b, moved(t, a), moved(t, b)));
     }
     return most;
@@ -77,7 +68,7 @@ static double longest_of_all(const Cut *t) {
 
 /* Does an edge keep the vertex from going in by a hundredth of a millimetre more? */
 static bool is_held(Cut *t, int v) {
-    const Push *p = &t->cloth.push;
+    const Push *p = &t->worn.cloth.push;
     Vec3 way = p->field.way[0], deeper = vec_mad(moved(t, v), way, 1e-5);
     int n;
     const int *beside = slopes_beside(&t->slopes, p->sheet, v, &n);
@@ -100,13 +91,13 @@ static void turn_edges_round(Sheet *s) {
 
 static void levels_one(Cut *t) {
     static double first[MOST];
-    Sheet *sheet = &t->of.sheet;
+    Sheet *sheet = &t->worn.cloth.sheet;
     int n = sheet->nvertices, lower = 0, free_ones = 0;
     bool good = true;
     double longest = -INFINITY, off = 0;
     for (int round = 0; round < 10; round++) {
         want(t, 0);
-        good = good && slopes_level(&t->slopes, &t->cloth.push, (Limb)0, t->wanted, t->depth[0]);
+        good = good && slopes_level(&t->slopes, &t->worn.cloth.push, (Limb)0, t->wanted, t->depth[0]);
         longest = fmax(longest, longest_of_all(t));
         for (int v = 0; v < n; v++) {
             bool is_lower = t->depth[0][v] < t->wanted[0][v];
@@ -116,7 +107,7 @@ static void levels_one(Cut *t) {
         memcpy(first, t->depth[0], (size_t)n * sizeof *first);
         memcpy(t->depth[0], t->wanted[0], (size_t)n * sizeof *first);
         turn_edges_round(sheet);
-        good = good && slopes_level(&t->slopes, &t->cloth.push, (Limb)0, t->wanted, t->depth[0]);
+        good = good && slopes_level(&t->slopes, &t->worn.cloth.push, (Limb)0, t->wanted, t->depth[0]);
         turn_edges_round(sheet);
         for (int v = 0; v < n; v++) off = fmax(off, fabs(t->depth[0][v] - first[v]));
     }
@@ -132,7 +123,7 @@ static void levels_several(Cut *t) {
     for (int round = 0; round < 10; round++) {
         for (int limb = 0; limb < LIMBS; limb++) want(t, limb);
         for (int limb = 0; limb < LIMBS; limb++)
-            good = slopes_level(&t->slopes, &t->cloth.push, (Limb)limb, t->wanted, t->depth[limb]) && good;
+            good = slopes_level(&t->slopes, &t->worn.cloth.push, (Limb)limb, t->wanted, t->depth[limb]) && good;
         longest = fmax(longest, longest_of_all(t));
     }
     OK(good && longest < 1e-9, "nor is one in the hollows of three limbs (%.2g mm)", 1000 * longest);
@@ -140,7 +131,7 @@ static void levels_several(Cut *t) {
 
 /* How much too long the worst edge of a vertex is if the vertex is at x. */
 static double worst_beside(Cut *t, int v, Vec3 x) {
-    const Push *p = &t->cloth.push;
+    const Push *p = &t->worn.cloth.push;
     double worst = -INFINITY;
     int n;
     const int *beside = slopes_beside(&t->slopes, p->sheet, v, &n);
@@ -149,7 +140,7 @@ static double worst_beside(Cut *t, int v, Vec3 x) {
 }
 
 static void moves_one(Cut *t) {
-    Push *p = &t->cloth.push;
+    Push *p = &t->worn.cloth.push;
     double longest = -INFINITY, shortest = 0, kept = 0;
     int nshort = 0;
     for (int round = 0; round < 1000; round++) {
@@ -176,10 +167,10 @@ static void moves_one(Cut *t) {
 int main(void) {
     static Cut t;
     open(&t);
-    OK(t.of.sheet.nvertices < MOST, "a skirt of %d vertices", t.of.sheet.nvertices);
+    OK(t.worn.cloth.sheet.nvertices < MOST, "a skirt of %d vertices", t.worn.cloth.sheet.nvertices);
     levels_one(&t);
     levels_several(&t);
     moves_one(&t);
-    arena_free(&t.of.scene.arena);
+    arena_free(&t.worn.of.scene.arena);
     return tap_done();
 }

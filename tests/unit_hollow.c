@@ -1,0 +1,104 @@
+/* A hand that hangs into the lap of a skirt: in which direction it presses, on which side of the cloth, and what is
+   drawn along when a vertex is taken back. */
+#include "worn.h"
+
+/* Sits, and an arm hangs down before the belly. */
+static void hand_in_lap(Worn *w) {
+    worn_open(w, "skirt", 5, 2);
+    Scene *s = &w->of.scene;
+    Pose pose = scene_reaching(s, 60);
+    scene_bend(s, &pose, ROLE_LEFT_UPPER_ARM, ROLE_LEFT_HAND, 34);
+    for (int left = 0; left < 2; left++) scene_leg(s, &pose, left, 75, 75);
+    worn_pose(w, &pose, 2);
+    push_rest(&w->cloth.push);
+    near_find(w->cloth.push.near, &s->posed, &w->cloth.sheet, w->cloth.push.point, 0.05, false);
+}
+
+static double angle_between(Vec3 a, Vec3 b) { return atan2(vec_len(vec_cross(a, b)), vec_dot(a, b)); }
+
+/* As if in the frame before the arm had pressed in another direction. */
+static void directions_turn_slowly(void) {
+    static const double dt = 1.0 / 60, TURNS = 15; /* radians a second, as in src/dress/dent.c */
+    static Worn w;
+    bool capped = false;
+    hand_in_lap(&w);
+    Push *p = &w.cloth.push;
+    Denter *d = &w.cloth.settler.denter;
+    dent_all(d, p, &capped);
+    Vec3 now = p->field.way[LIMB_LEFT_ARM], aside = vec_unit_or(vec_cross(now, vec(1, 0, 0)), vec(0, 0, 1));
+    Vec3 before = vec_unit_or(vec_add(now, aside), now);
+    for (int v = 0; v < p->sheet->nvertices; v++)
+        field_set_spot(&p->field.dent[LIMB_LEFT_ARM], p->sheet->place[v], vec_scale(before, 0.05));
+    p->field.way[LIMB_LEFT_ARM] = before;
+    p->field.pelvis = w.of.scene.posed.pose.bone[ROLE_PELVIS].r;
+    dent_carry(d, &p->field, &w.of.scene.posed, dt, true);
+    field_drop_dents(&p->field);
+    push_rest(p);
+    dent_all(d, p, &capped);
+    Vec3 way = p->field.way[LIMB_LEFT_ARM];
+    NEAR(angle_between(before, way), TURNS * dt, 1e-9, "a limb's direction turns by no more than it may");
+    NEAR(angle_between(before, way) + angle_between(way, now), angle_between(before, now), 1e-9,
+         "on the shortest way to where it presses now");
+    arena_free(&w.of.scene.arena);
+}
+
+/* The limb is behind all of the cloth, also behind the far side, whose inward normal is against its direction. */
+static void presses_its_own_side(void) {
+    static Worn w;
+    hand_in_lap(&w);
+    Push *p = &w.cloth.push;
+    Hollow *h = &w.cloth.settler.denter.hollow;
+    Touch t = touch_find(p);
+    hollow_find(h, p, &t, LIMB_LEFT_ARM);
+    for (int v = 0; v < p->sheet->nvertices; v++) p->point[v] = vec_mad(p->point[v], h->way, -0.15);
+    int pressed = 0, behind = 0;
+    double most = 0, least = 0;
+    for (int v = 0; v < p->sheet->nvertices; v++) {
+        Vec3 inwards = vec_scale(lattice_normal(p->field.lattice, p->escape.root, p->sheet->place[v]), -1);
+        double depth = hollow_depth(h, p, v), facing = vec_dot(inwards, h->way);
+        pressed += depth > 0.01;
+        behind += facing < 0;
+        if (facing < 0) most = fmax(most, depth);
+        if (facing > 0.5) least = fmax(least, depth);
+    }
+    OK(pressed > 20 && least > 0.05, "%d vertices are pressed in, by up to %.0f mm", pressed, 1000 * least);
+    OK(behind > 100 && most == 0, "none of the %d on the far side (%g)", behind, most);
+    arena_free(&w.of.scene.arena);
+}
+
+/* The deepest vertex is taken back as far as that goes. */
+static void cloth_is_drawn_along(void) {
+    static const double LEAST = 0.999; /* as in src/dress/dent.c */
+    static Worn w;
+    bool capped = false;
+    hand_in_lap(&w);
+    Push *p = &w.cloth.push;
+    Denter *d = &w.cloth.settler.denter;
+    dent_all(d, p, &capped);
+    int deepest = 0, torn = 0, most = 0;
+    for (int v = 0; v < p->sheet->nvertices; v++)
+        if (d->depth[LIMB_LEFT_ARM][v] > d->depth[LIMB_LEFT_ARM][deepest]) deepest = v;
+    double before = vec_len(field_dent(&p->field, p->sheet->place[deepest]));
+    for (int round = 0; round < 3; round++) {
+        dent_round(d);
+        dent_back(d, p, deepest);
+        most = d->nloose > most ? d->nloose : most;
+        for (int k = 0; k < d->nloose; k++) {
+            int n;
+            const int *beside = slopes_beside(&d->slopes, p->sheet, d->loose[k], &n);
+            for (int i = 0; i < n; i++) torn += slopes_keeps(p, beside[i], d->loose[k]) < LEAST;
+        }
+    }
+    double after = vec_len(field_dent(&p->field, p->sheet->place[deepest]));
+    OK(before > 0.05 && after < before - 0.02, "a vertex is taken back by %.0f of %.0f mm", 1000 * (before - after),
+       1000 * before);
+    OK(most > 10 && torn == 0, "up to %d with it, and no edge is left too long (%d)", most, torn);
+    arena_free(&w.of.scene.arena);
+}
+
+int main(void) {
+    directions_turn_slowly();
+    presses_its_own_side();
+    cloth_is_drawn_along();
+    return tap_done();
+}
