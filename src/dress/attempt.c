@@ -11,7 +11,7 @@
 enum { ROUNDS_MAX = 9, SOLVE_EVERY = 3 }; /* rounds of asking for more distance; after so many the whole surface */
 enum { MANY = 4 };                   /* if more than one in so many vertices has moved, the whole mesh is tested */
 static const double HOPELESS = 0.045; /* findings per edge of the mesh: more are hardly ever mended */
-static const double HEADWAY = 0.7;   /* an attempt ends if more of the bad vertices is left after SOLVE_EVERY rounds */
+static const double HEADWAY = 0.7;   /* an attempt ends if more of what shows is left after SOLVE_EVERY rounds */
 static const double RAISE = 0.002;   /* clearance added to a bad vertex in a round, metres on 1.70 m */
 enum { FLAT_ROUNDS = 4, FLAT_MOST = 256 }; /* of raising flat facets: rounds, and vertices moved in each */
 static const double FLAT = 5e-6;     /* least height of a facet, metres on 1.70 m */
@@ -111,9 +111,9 @@ Outcome attempt_push(Cloth *c, const BodyFrame *body, FrameStats *stats) {
         if (is_spoilt) out.wrong = test_raised(c, body, out.wrong, stats);
         bool raised = !is_spoilt && raise_bad(c, round);
         stats->test_s += clock_lap(&start);
-        bool give_up = solve && (is_clean || attempt_is_hopeless(c, &out) || c->tester.nbad > HEADWAY * before);
+        bool give_up = solve && (is_clean || attempt_is_hopeless(c, &out) || outcome_shows(&out) > HEADWAY * before);
         if (!raised || round == ROUNDS_MAX || give_up) break; /* nothing has moved since the test */
-        if (solve) before = c->tester.nbad;
+        if (solve) before = outcome_shows(&out);
         all_moved = solve || c->settler.nraised > c->sheet.nvertices / MANY;
         was_clean = is_clean;
         push_off(c, solve, &out.push);
