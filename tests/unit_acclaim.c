@@ -136,6 +136,7 @@ static const Case motions[] = {
     {"ends behind a frame's number", FIRST "2", "ends within frame 2", 1, 9, 2},
     {"frame numbers with a gap", FIRST "7\narm 8 0 9\nshin 7\nthigh 4 5 6\nroot 9 8 7 6 5 4\n",
      "frame 7 follows frame 1", 2, 9, 1},
+    {"indented", "  1\n " VALUES "\t2\n " VALUES, NULL, 2, 0, 0},
     {"starts in the middle", "512\n" VALUES, NULL, 1, 0, 0},
     {"a bone is missing", FIRST "2\nroot 1 2 3 10 20 30\nthigh 40 50 60\nshin 70\n3\n",
      "frame 2 has no values for bone 'arm'", 0, 13, 1},

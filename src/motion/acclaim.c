@@ -21,9 +21,10 @@ static Word peek(Stream *s) {
     return w;
 }
 
-/* A frame's number stands alone in its line and is made of digits only. */
+/* A word of digits only, where a bone's name could stand. Whether it begins its line tells nothing more: a bone takes
+   all the values of its own. */
 static bool is_frame_number(Word w) {
-    if (!w.first || w.length == 0 || w.length > 9) return false;
+    if (w.length == 0 || w.length > 9) return false;
     for (int i = 0; i < w.length; i++)
         if (w.start[i] < '0' || w.start[i] > '9') return false;
     return true;
