@@ -76,6 +76,9 @@ for pattern in 'm.*.obj' 'm.####.obj' 'm.%04d.obj' 'm.%d.obj'; do
     ok "pattern $pattern" verify 0 --garment "$pattern" --body 'body.*.obj'
     is "pattern $pattern: all frames" "$(told frame)" '1 2 3 4 5 '
 done
+for k in 1 2; do cp m.000$k.obj long.000000000$k.obj; done
+ok 'numbers with ten digits' verify 0 --garment 'long.*.obj' --body 'body.*.obj' --frames 1:2
+is 'are numbers too' "$(told frame)" '1 2 '
 ok 'a body without a number stands still' verify 0 --garment 'm.*.obj' --body body.0001.obj
 is 'in all frames' "$(told frame)" '1 2 3 4 5 '
 ok 'two files without a number' verify 0 --garment m.0001.obj --body body.0001.obj

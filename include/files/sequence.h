@@ -15,7 +15,7 @@ typedef struct {
 } Sequence;
 
 /* The files of a pattern: the number stands at `*`, `####` or `%04d` in the name of the file, as
-   any number of digits. Without such a mark it is one file. ERR_INPUT if there is none. */
+   any number of digits, up to 999,999,999. Without such a mark it is one file. ERR_INPUT if there is none. */
 MUST_CHECK bool sequence_find(const char *pattern, Arena *arena, Sequence *out, Error *e);
 
 /* All sequences NAME.0001.ending in a folder (at least four digits), by name. None is no error. */

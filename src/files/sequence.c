@@ -7,7 +7,7 @@
 
 #include "files/listing.h"
 
-enum { DIGITS_MAX = 9, PLAIN_DIGITS = 4 };
+enum { NUMBER_MOST = 999999999, PLAIN_DIGITS = 4 };
 
 typedef struct {
     const char *text;                       /* as a whole */
@@ -47,7 +47,7 @@ static int number_in(const char *name, const Pattern *p) {
     if (memcmp(s + digits, p->behind, p->behind_length) != 0) return -1;
     int number = 0;
     for (size_t i = 0; i < digits; i++) {
-        if (s[i] < '0' || s[i] > '9' || i == DIGITS_MAX) return -1;
+        if (s[i] < '0' || s[i] > '9' || number > NUMBER_MOST / 10) return -1;
         number = 10 * number + (s[i] - '0');
     }
     return number;
