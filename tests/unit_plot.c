@@ -64,6 +64,9 @@ static void test_file(void) {
     int moves = 0;
     for (const char *at = strstr(curve, "d=\""); *at != '>'; at++) moves += *at == 'M';
     OK(moves == 2, "but a second stroke");
+    plot[0].title = "caf\xe9 caf\xc3\xa9 \xe2\x82 \xed\xa0\x80 \xf0\x9f\x99\x82\xc3";
+    OK(plot_lines(again, plot, 1, &e) && strstr(read_all(again, &arena), ">caf? caf\xc3\xa9 ?? ??? \xf0\x9f\x99\x82?<"),
+       "bytes that are no characters become '?'");
     plot[1].nseries = 0;
     OK(!plot_lines(again, plot, 2, &e) && e.kind == ERR_INPUT, "no values are no plot: %s", e.text);
     OK(read_all(again, &arena), "and what was there stays");

@@ -4,12 +4,26 @@
 
 #include <math.h>
 
-/* Control bytes are no XML: they become '?'. */
+/* How many bytes the character of UTF-8 at s has; 0 where none begins. */
+static int character(const char *s) {
+    const unsigned char *b = (const unsigned char *)s;
+    int n = b[0] < 0x80 ? 1 : b[0] < 0xC2 ? 0 : b[0] < 0xE0 ? 2 : b[0] < 0xF0 ? 3 : b[0] < 0xF5 ? 4 : 0;
+    /* Longer than need be; a half of a pair of UTF-16; beyond the last character. */
+    if ((b[0] == 0xE0 && b[1] < 0xA0) || (b[0] == 0xED && b[1] > 0x9F)) return 0;
+    if ((b[0] == 0xF0 && b[1] < 0x90) || (b[0] == 0xF4 && b[1] > 0x8F)) return 0;
+    for (int k = 1; k < n; k++)
+        if ((b[k] & 0xC0) != 0x80) return 0;
+    return n;
+}
+
+/* Control bytes are no XML, nor is what is no UTF-8, as in names of files: each such byte becomes '?'. */
 static void put_escaped(FILE *out, const char *text) {
     for (const char *c = text; *c; c++) {
+        int n = character(c);
         if (*c == '<') fputs("&lt;", out);
         else if (*c == '&') fputs("&amp;", out);
-        else fputc((unsigned char)*c < 32 || *c == 127 ? '?' : *c, out);
+        else if (n == 0 || (unsigned char)*c < 32 || *c == 127) fputc('?', out);
+        else fprintf(out, "%.*s", n, c), c += n - 1;
     }
 }
 
