@@ -159,6 +159,11 @@ static void test_obj_parse(void) {
     OK(parse(SQUARE "vt .5\nvt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/2/1\n", &arena, &m, &e) && m.u[0] == 0.5 && m.w[0] == 0 &&
            m.w[1] == 1 && m.normal[2].z == 1,
        "one texture coordinate is enough");
+    OK(parse(SQUARE "f 1/1/1 2/2/1 3/-1/-1\nvt .5 1\nvt 1 1\nvn 0 0 1\n", &arena, &m, &e) == false,
+       "backwards from the last line so far there may be none");
+    OK(parse(SQUARE "f 1/1/1 2/2/1 3/2/1\nvt .5\nvt 1 1\nvn 0 0 1\n", &arena, &m, &e) && m.u[0] == 0.5 && m.u[1] == 1 &&
+           m.w[1] == 1 && m.normal[0].z == 1 && m.normal[2].z == 1,
+       "a face before its texture coordinates and normals");
     OK(parse(SQUARE "vn 0 0 1\nf 1//1 2//1 3\n", &arena, &m, &e) && !m.normal,
        "normals that not every corner has are left out");
     OK(parse(SQUARE "o a\nusemtl x\nf 1 2 3\no b c \nusemtl x\nf 1 3 4\no d\n", &arena, &m, &e) && m.ngroups == 2 &&

@@ -11,6 +11,9 @@ enum { INDEX_DIGITS = 9 };
 typedef enum { LINE_V, LINE_VT, LINE_VN, LINE_F, LINE_G, LINE_O, LINE_USEMTL, LINE_OTHER } LineKind;
 static const char *const line_words[LINE_OTHER] = {"v", "vt", "vn", "f", "g", "o", "usemtl"};
 
+/* What the first corner of a vertex in a face says of it. */
+typedef struct { bool is_there; int uv, normal; } Corner;
+
 typedef struct {
     Cursor at;
     Arena *arena;
@@ -21,7 +24,7 @@ typedef struct {
     LineKind grouping;         /* the lines that make groups */
     double (*uv)[2];
     Vec3 *normal;
-    bool *has_corner;        /* of a vertex: a face has used it */
+    Corner *corner;          /* of each vertex */
     bool all_uv, all_normal; /* every corner so far had one */
 } Reader;
 
@@ -135,11 +138,7 @@ static bool take_corner(Reader *r, int *vertex, Error *e) {
         return error_at(e, ERR_INPUT, text_place(c, c->at), "expected a corner as v, v/vt, v//vn or v/vt/vn");
     r->all_uv &= uv >= 0;
     r->all_normal &= normal >= 0;
-    if (!r->has_corner[*vertex]) {
-        r->has_corner[*vertex] = true;
-        if (uv >= 0) r->mesh->u[*vertex] = r->uv[uv][0], r->mesh->w[*vertex] = r->uv[uv][1];
-        if (normal >= 0) r->mesh->normal[*vertex] = r->normal[normal];
-    }
+    if (!r->corner[*vertex].is_there) r->corner[*vertex] = (Corner){true, uv, normal};
     return true;
 }
 
@@ -202,8 +201,21 @@ static bool take_memory(Reader *r, Error *e) {
     m->group = ARENA_NEW(r->arena, MeshGroup, groups, e);
     r->uv = arena_array(r->arena, (size_t)r->lines[LINE_VT], sizeof *r->uv, e);
     r->normal = ARENA_NEW(r->arena, Vec3, r->lines[LINE_VN], e);
-    r->has_corner = ARENA_NEW(r->arena, bool, vertices, e);
+    r->corner = ARENA_NEW(r->arena, Corner, vertices, e);
     return e->kind == ERR_NONE;
+}
+
+/* In the end, since a face may stand before the lines that it names. */
+static void fill_vertices(const Reader *r) {
+    Mesh *m = r->mesh;
+    if (!r->all_uv || m->ntriangles == 0) m->u = m->w = NULL;
+    if (!r->all_normal || m->ntriangles == 0) m->normal = NULL;
+    for (int v = 0; v < m->nvertices; v++) {
+        Corner c = r->corner[v];
+        if (!c.is_there) continue;
+        if (m->u) m->u[v] = r->uv[c.uv][0], m->w[v] = r->uv[c.uv][1];
+        if (m->normal) m->normal[v] = r->normal[c.normal];
+    }
 }
 
 bool obj_parse(const Text *text, Arena *arena, Mesh *out, Error *e) {
@@ -219,7 +231,6 @@ bool obj_parse(const Text *text, Arena *arena, Mesh *out, Error *e) {
         if (!read_line(&r, e)) return false;
     } while (next_line(&r.at));
     if (out->ngroups && out->group[out->ngroups - 1].count == 0) out->ngroups--;
-    if (!r.all_uv || out->ntriangles == 0) out->u = out->w = NULL;
-    if (!r.all_normal || out->ntriangles == 0) out->normal = NULL;
+    fill_vertices(&r);
     return true;
 }
