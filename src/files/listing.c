@@ -22,8 +22,9 @@ bool listing_read(const char *folder, Arena *arena, Listing *out, Error *e) {
     if (!open) return error_set(e, ERR_INPUT, "cannot open the folder '%s': %s", folder, strerror(errno));
     bool good = true;
     int capacity = 0;
-    for (struct dirent *entry; good && (entry = readdir(open));)
+    for (struct dirent *entry; good && (errno = 0, entry = readdir(open));)
         if (entry->d_name[0] != '.') good = add_name(out, &capacity, entry->d_name, arena, e);
+    if (good && errno) good = error_set(e, ERR_INPUT, "cannot list the folder '%s': %s", folder, strerror(errno));
     closedir(open);
     if (good && out->count) qsort(out->name, (size_t)out->count, sizeof *out->name, by_bytes);
     return good;

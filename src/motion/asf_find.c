@@ -18,6 +18,10 @@ typedef struct {
     int count;      /* files that end in .asf */
 } Search;
 
+static bool cannot_list(const char *folder, const char *amc, Error *e) {
+    return error_set(e, ERR_INPUT, "cannot list '%s' for the skeleton of '%s': %s", folder, amc, strerror(errno));
+}
+
 static void consider(Search *found, const char *file, const char *name, size_t length) {
     size_t n = strlen(file);
     if (n >= sizeof found->best || !text_ends_in(file, ".asf")) return;
@@ -39,11 +43,12 @@ bool asf_find(Opening *o, const char **path, Error *e) {
     const char *where = folder ? arena_text(o->arena, amc, folder, e) : ".";
     if (!where) return false;
     DIR *dir = opendir(where);
-    if (!dir)
-        return error_set(e, ERR_INPUT, "cannot list '%s' for the skeleton of '%s': %s", where, amc, strerror(errno));
+    if (!dir) return cannot_list(where, amc, e);
     Search found = {.count = 0};
-    for (struct dirent *entry; (entry = readdir(dir));) consider(&found, entry->d_name, name, length);
+    for (struct dirent *entry; (errno = 0, entry = readdir(dir));) consider(&found, entry->d_name, name, length);
+    bool whole = !errno || cannot_list(where, amc, e);
     closedir(dir);
+    if (!whole) return false;
     if (!found.stem && found.count != 1)
         return error_set(e, ERR_INPUT, "no skeleton for '%s': %s beside it; give --asf", amc,
                          found.count ? "none of the .asf files has a name that fits" : "there is no .asf file");
