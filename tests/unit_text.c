@@ -1,5 +1,6 @@
 /* The ground floor: numbers that are read as the C library reads them and written in the fewest digits, lines of
-   words that know their place, what was probably meant, and memory that is given back and limited. */
+   words that know their place, what was probably meant, the first word of a file, and memory that is given back
+   and limited. */
 #include "base/text.h"
 
 #include <inttypes.h>
@@ -8,6 +9,7 @@
 
 #include "base/digest.h"
 #include "dice.h"
+#include "folder.h"
 #include "tap.h"
 
 /* Any finite double there is. */
@@ -164,7 +166,25 @@ static void digests_differ(void) {
     OK(one == again && one != other, "texts are told apart by their ends (%016" PRIx64 ")", one);
 }
 
+static void begins_with(const char *text, const char *wanted, const char *what) {
+    char word[TEXT_FIRST];
+    Error e = {0};
+    OK(text_first_word(folder_put_text("first", text), word, &e) && strcmp(word, wanted) == 0, "%s: '%s'", what, word);
+}
+
+static void first_words_are_found(void) {
+    char many[8000] = "";
+    for (size_t n = 0; n + 16 < sizeof many; n += 4) memcpy(many + n, "# x\n", 5);
+    strcat(many, "garment x\n");
+    begins_with("\xEF\xBB\xBF# a remark\ngarment x\n", "garment", "behind a mark and a comment");
+    begins_with("#\r\n#\r\ngarment x\r\n", "garment", "lines that end in CR LF");
+    begins_with("# a remark\rgarment x\r", "garment", "lines that end in CR");
+    begins_with(many, "garment", "behind many comments");
+    begins_with("# nothing else", "", "nothing but a comment");
+}
+
 int main(void) {
+    if (!folder_make()) return 1;
     numbers_are_read();
     numbers_are_written();
     lines_know_their_words();
@@ -176,5 +196,7 @@ int main(void) {
     errors_come_first();
     memory_is_bounded();
     digests_differ();
+    first_words_are_found();
+    folder_remove();
     return tap_done();
 }

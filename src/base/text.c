@@ -79,9 +79,9 @@ bool text_first_word(const char *path, char word[TEXT_FIRST], Error *e) {
     FILE *f = fopen(path, "r");
     if (!f) return error_set(e, ERR_INPUT, "cannot open '%s': %s", path, strerror(errno));
     if (!fgets(mark, sizeof mark, f) || strcmp(mark, BYTE_ORDER_MARK) != 0) rewind(f);
-    for (int lines = 0; lines < 1000 && fscanf(f, "%15s", word) == 1 && word[0] == '#'; lines++) {
+    while (fscanf(f, "%15s", word) == 1 && word[0] == '#') {
         word[0] = 0;
-        for (int c; (c = fgetc(f)) != EOF && c != '\n';) continue;
+        for (int c; (c = fgetc(f)) != EOF && !text_is_end((char)c);) continue;
     }
     fclose(f);
     return true;
