@@ -1,13 +1,16 @@
 /* The ground floor: numbers that are read as the C library reads them and written in the fewest digits, lines of
-   words that know their place, what was probably meant, the first word of a file, and memory that is given back
-   and limited. */
+   words that know their place, what was probably meant, the first word of a file, memory that is given back and
+   limited, and how many processors there are. */
+#define _GNU_SOURCE /* sched_setaffinity */
 #include "base/text.h"
 
 #include <inttypes.h>
+#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/digest.h"
+#include "base/thread.h"
 #include "dice.h"
 #include "folder.h"
 #include "tap.h"
@@ -183,6 +186,24 @@ static void first_words_are_found(void) {
     begins_with("# nothing else", "", "nothing but a comment");
 }
 
+/* As in a batch job that has got one processor of many. */
+static void processors_are_ours(void) {
+#ifdef __linux__
+    cpu_set_t all, one;
+    size_t first = 0;
+    CPU_ZERO(&one);
+    if (sched_getaffinity(0, sizeof all, &all) != 0) {
+        SKIP("processors", "there is no telling which are ours");
+        return;
+    }
+    OK(thread_count() == CPU_COUNT(&all), "all processors that are ours count: %d", thread_count());
+    while (!CPU_ISSET(first, &all)) first++;
+    CPU_SET(first, &one);
+    if (sched_setaffinity(0, sizeof one, &one) == 0) OK(thread_count() == 1, "others do not: %d", thread_count());
+    sched_setaffinity(0, sizeof all, &all);
+#endif
+}
+
 int main(void) {
     if (!folder_make()) return 1;
     numbers_are_read();
@@ -197,6 +218,7 @@ int main(void) {
     memory_is_bounded();
     digests_differ();
     first_words_are_found();
+    processors_are_ours();
     folder_remove();
     return tap_done();
 }

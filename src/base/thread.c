@@ -1,8 +1,10 @@
 /* Threads that take the next item from one atomic counter until none is left, so that all items are done also where
    there are fewer threads. */
+#define _GNU_SOURCE /* sched_getaffinity */
 #include "base/thread.h"
 
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -14,7 +16,12 @@ typedef struct {
     void *context;
 } Shared;
 
+/* Batch systems and taskset give a job some of the machine's processors. */
 int thread_count(void) {
+#ifdef __linux__
+    cpu_set_t ours;
+    if (sched_getaffinity(0, sizeof ours, &ours) == 0) return CPU_COUNT(&ours);
+#endif
     long n = sysconf(_SC_NPROCESSORS_ONLN);
     return n < 1 ? 1 : n > 1024 ? 1024 : (int)n;
 }
