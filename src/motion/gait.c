@@ -113,9 +113,10 @@ static bool complete(Gait *g, const Preset *preset, double *frame_time, Error *e
 static bool write_paper(const Gait *g, double frame_time, FILE *out) {
     GaitBody body = gait_body(100 * g->height);
     int frames = g->steps * g->frames_per_step;
+    double hips = gait_paper_height(g, &body);
     gait_write_head(&body, frames, frame_time, out);
     for (int i = 0; i < frames; i++) {
-        GaitPose pose = gait_paper_pose(g, &body, i);
+        GaitPose pose = gait_paper_pose(g, hips, i);
         gait_write_pose(&body, &pose, out);
     }
     return true;

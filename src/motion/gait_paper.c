@@ -48,12 +48,16 @@ static double reach_down(const GaitBody *body, const GaitPose *pose) {
     return deepest;
 }
 
-GaitPose gait_paper_pose(const Gait *g, const GaitBody *body, int frame) {
+double gait_paper_height(const Gait *g, const GaitBody *body) {
     double height = 0;
-    for (int i = 0; i < g->frames_per_step; i++) {
-        GaitPose other = pose_at(g, i);
-        height = fmax(height, reach_down(body, &other));
+    for (int i = 0; i < g->frames_per_step; i++) { /* the second step is the first one's mirror image */
+        GaitPose pose = pose_at(g, i);
+        height = fmax(height, reach_down(body, &pose));
     }
+    return height;
+}
+
+GaitPose gait_paper_pose(const Gait *g, double height, int frame) {
     GaitPose pose = pose_at(g, frame);
     pose.hips = vec(0, height, 100 * g->step_length * frame / g->frames_per_step);
     return pose;
