@@ -13,6 +13,9 @@ Vectors vectors_pick(Vectors v);
 /* Does this machine have it? */
 bool vectors_usable(Vectors v);
 
+/* What begins a function that becomes a part of each that calls it, and is compiled for the instruction set of that. */
+#define ALWAYS static inline __attribute__((always_inline))
+
 /* Attributes of a function that is compiled for an instruction set; only where VECTORS_ARE_X86 is defined. */
 #if defined(__x86_64__) && defined(__GNUC__)
 #define VECTORS_ARE_X86 1

@@ -10,8 +10,6 @@ enum { LANES = 16 };
 
 typedef struct { double x[LANES], y[LANES], z[LANES]; } Lanes;
 
-#define ALWAYS static inline __attribute__((always_inline))
-
 /* What is asked, and where the answers go. */
 typedef struct {
     const BodyPart *part;

@@ -21,8 +21,6 @@ static const bool LOWEST_FIRST = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__; /* d
 /* text: eight bytes, of which the first is the lowest. */
 typedef struct { uint32_t minus[NUMBERS]; uint64_t text[NUMBERS]; } Digits;
 
-#define ALWAYS static inline __attribute__((always_inline))
-
 /* 1 where the sign bit stands, for -0 as well. */
 ALWAYS void find_minus(const double *x, uint32_t *minus) {
     uint64_t bits[NUMBERS];

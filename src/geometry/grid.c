@@ -35,8 +35,6 @@ GridRows grid_part(const GridRows *rows, int first, int n) {
     return part;
 }
 
-#define ALWAYS static inline __attribute__((always_inline))
-
 /* Eight vectors side by side; of these `lanes` are in use, a constant wherever it is inlined. */
 typedef struct { double x[LANES], y[LANES], z[LANES]; } Lanes;
 

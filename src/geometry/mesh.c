@@ -25,8 +25,6 @@ Vec3 mesh_snap_point(Vec3 p) {
     return vec(mesh_snap(p.x), mesh_snap(p.y), mesh_snap(p.z));
 }
 
-#define ALWAYS static inline __attribute__((always_inline))
-
 /* mesh_snap without a branch, for a block of numbers times `unit`. False if any of them lands on a half or is too
    large, and so is not what it should be. */
 ALWAYS bool snap_block(const double *from, double unit, double *to) {

@@ -52,8 +52,6 @@ static void plain_boxes(Tile *out, const Vec3 *position, const int *index, int c
     tile_empty(out, n);
 }
 
-#define ALWAYS static inline __attribute__((always_inline))
-
 /* Lanes beyond the n-th repeat the last item; their boxes overlap nothing. */
 ALWAYS const int *item_of(const int *index, int corners, int n, int lane) {
     return index + corners * (lane < n ? lane : n - 1);
