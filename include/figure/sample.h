@@ -22,6 +22,11 @@ MUST_CHECK bool sample_read(const Motion *m, int wanted, Arena *arena, Sample *o
 static inline Rigid sample_at(const Sample *s, int i, int joint) { return s->world[(long)i * s->njoints + joint]; }
 static inline Vec3 sample_point(const Sample *s, int i, int joint) { return s->world[(long)i * s->njoints + joint].t; }
 
+/* The place half-way between two joints. */
+static inline Vec3 sample_middle(const Sample *s, int i, int a, int b) {
+    return vec_mid(sample_point(s, i, a), sample_point(s, i, b));
+}
+
 /* Mean distance between two joints, file units. */
 double sample_distance(const Sample *s, int a, int b);
 

@@ -65,10 +65,6 @@ Figure figure_reference(void) {
 
 /* --- lengths --- */
 
-static Vec3 between(const Sample *s, int frame, int a, int b) {
-    return vec_mid(sample_point(s, frame, a), sample_point(s, frame, b));
-}
-
 static int compare(const void *a, const void *b) {
     double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
@@ -101,8 +97,8 @@ static double torso_length(const Sample *s, const Rest *rest, const Roles *r) {
     const int *j = r->joint;
     double d[SAMPLE_FRAMES_MAX];
     for (int f = 0; f < s->count; f++)
-        d[f] = vec_dist(between(s, f, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]),
-                        between(s, f, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]));
+        d[f] = vec_dist(sample_middle(s, f, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]),
+                        sample_middle(s, f, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]));
     qsort(d, (size_t)s->count, sizeof d[0], compare);
     double moving = d[(int)(0.75 * (s->count - 1))];
     if (!rest->human) return moving;

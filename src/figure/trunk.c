@@ -13,8 +13,7 @@ typedef struct {
 } Human;
 
 static Vec3 middle(const Tree *t, int frame, const LimbPair *p) {
-    return vec_mid(sample_point(t->sample, frame, p->limb[0].joint[0]),
-                   sample_point(t->sample, frame, p->limb[1].joint[0]));
+    return sample_middle(t->sample, frame, p->limb[0].joint[0], p->limb[1].joint[0]);
 }
 
 Vec3 trunk_line(const Tree *t, int frame, const Limbs *limbs) {

@@ -25,10 +25,6 @@ static Vec3 axis_of(char up) {
     return vec(axis == 'x' ? sign : 0, axis == 'y' ? sign : 0, axis == 'z' ? sign : 0);
 }
 
-static Vec3 middle(const Sample *s, int frame, int a, int b) {
-    return vec_mid(sample_point(s, frame, a), sample_point(s, frame, b));
-}
-
 typedef struct {
     Vec3 axis;     /* mean of the body's axis, length up to 1: hips -> shoulders and, less, ankles -> hips */
     double torso;  /* mean length, hips to shoulders */
@@ -41,9 +37,9 @@ static Stance find_stance(const Sample *s, const Figure *f) {
     if (left < 0 || right < 0) left = j[ROLE_LEFT_SHIN], right = j[ROLE_RIGHT_SHIN];
     Stance stance = {{0, 0, 0}, 0};
     for (int i = 0; i < s->count; i++) {
-        Vec3 hips = middle(s, i, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]);
-        Vec3 torso = vec_sub(middle(s, i, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]), hips);
-        Vec3 legs = vec_sub(hips, middle(s, i, left, right));
+        Vec3 hips = sample_middle(s, i, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]);
+        Vec3 torso = vec_sub(sample_middle(s, i, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]), hips);
+        Vec3 legs = vec_sub(hips, sample_middle(s, i, left, right));
         /* Legs count less: people who sit stretch them forwards. */
         Vec3 sum = vec_mad(vec_unit_or(torso, vec(0, 0, 0)), vec_unit_or(legs, vec(0, 0, 0)), LEGS);
         stance.axis = vec_mad(stance.axis, sum, 1 / (1 + LEGS) / s->count);
