@@ -14,10 +14,10 @@ typedef struct {
     unsigned char *crack;  /* [y * (width + 1) + x]: bits of the corner (x, y): see outline.c */
     OutlinePoint *point;   /* of the line that outline_next has found */
     int count, capacity;
-    bool is_closed;
+    bool is_closed;        /* then the last point is not the first again */
     int at, pass;          /* private: where the search goes on */
     unsigned char *kept;   /* private */
-    int (*range)[2];       /* private: work list of outline_thin */
+    int (*range)[2];       /* private: work list of thinning */
 } Outline;
 
 MUST_CHECK bool outline_reserve(Outline *o, int width, int height, Arena *arena, Error *e);
@@ -33,10 +33,6 @@ void outline_left(Outline *o, int x, int y);
 /* The next line, thinned: each crack belongs to one. Where every corner has an even number of
    cracks, as round a region, all lines are closed. False: there are no more. */
 bool outline_next(Outline *o);
-
-/* Thins a line to the points that lie farther than `tolerance` from what is left without them
-   (Douglas and Peucker). For a closed line the last point is not the first. Works in o->point. */
-void outline_thin(Outline *o, double tolerance);
 
 /* Area inside a closed line, pixels; length of any. */
 double outline_area(const Outline *o);

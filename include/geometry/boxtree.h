@@ -47,13 +47,6 @@ static inline bool box_touches(Box a, Box b) {
            a.low.z <= b.high.z && a.high.z >= b.low.z;
 }
 
-/* Squared distance of p from a box; 0 inside. */
-static inline double box_distance2(Box b, Vec3 p) {
-    Vec3 inside = vec(clamp(p.x, b.low.x, b.high.x), clamp(p.y, b.low.y, b.high.y), clamp(p.z, b.low.z, b.high.z));
-    Vec3 off = vec_sub(p, inside);
-    return vec_dot(off, off);
-}
-
 static inline Box box_of_triangle(const Vec3 *position, Triangle t) {
     Box b = {position[t.v[0]], position[t.v[0]]};
     box_add(&b, position[t.v[1]]);

@@ -93,21 +93,6 @@ static void smooth(Outline *o) {
     }
 }
 
-/* Open ends first, so that lines are not begun in their middle. */
-bool outline_next(Outline *o) {
-    int row = o->right - o->left + 1, corners = row * (o->bottom - o->top + 1);
-    for (; o->pass < 2; o->pass++, o->at = 0)
-        for (; o->at < corners; o->at++) {
-            int x = o->left + o->at % row, y = o->top + o->at / row, n = degree(o, x, y);
-            if (n == 0 || (o->pass == 0 && n % 2 == 0)) continue;
-            walk(o, x, y);
-            smooth(o);
-            outline_thin(o, THIN);
-            return true;
-        }
-    return false;
-}
-
 static double length_of(double x, double y) { return sqrt(x * x + y * y); }
 
 static double distance_from(OutlinePoint a, OutlinePoint b, OutlinePoint p) {
@@ -129,14 +114,14 @@ static int farthest(const Outline *o, int from, int to, double *distance) {
     return best;
 }
 
-static void thin_between(Outline *o, int from, int to, double tolerance) {
+static void thin_between(Outline *o, int from, int to) {
     int n = 0;
     o->range[n][0] = from;
     o->range[n++][1] = to;
     while (n > 0) {
         double d;
         int a = o->range[--n][0], b = o->range[n][1], middle = farthest(o, a, b, &d);
-        if (middle < 0 || d <= tolerance) continue;
+        if (middle < 0 || d <= THIN) continue;
         o->kept[middle] = 1;
         int part[2][2] = {{a, middle}, {middle, b}};
         memcpy(o->range[n], part, sizeof part);
@@ -144,7 +129,8 @@ static void thin_between(Outline *o, int from, int to, double tolerance) {
     }
 }
 
-void outline_thin(Outline *o, double tolerance) {
+/* Leaves of a line the points that lie farther than THIN from what is left without them (Douglas and Peucker). */
+static void thin(Outline *o) {
     int n = 0, last = o->is_closed ? o->count : o->count - 1;
     if (o->count < 3) return;
     memset(o->kept, 0, (size_t)o->count);
@@ -153,15 +139,30 @@ void outline_thin(Outline *o, double tolerance) {
         double d;
         int opposite = farthest(o, 0, o->count, &d);
         o->kept[opposite] = 1;
-        thin_between(o, 0, opposite, tolerance);
-        thin_between(o, opposite, last, tolerance);
+        thin_between(o, 0, opposite);
+        thin_between(o, opposite, last);
     } else {
         o->kept[last] = 1;
-        thin_between(o, 0, last, tolerance);
+        thin_between(o, 0, last);
     }
     for (int k = 0; k < o->count; k++)
         if (o->kept[k]) o->point[n++] = o->point[k];
     o->count = n;
+}
+
+/* Open ends first, so that lines are not begun in their middle. */
+bool outline_next(Outline *o) {
+    int row = o->right - o->left + 1, corners = row * (o->bottom - o->top + 1);
+    for (; o->pass < 2; o->pass++, o->at = 0)
+        for (; o->at < corners; o->at++) {
+            int x = o->left + o->at % row, y = o->top + o->at / row, n = degree(o, x, y);
+            if (n == 0 || (o->pass == 0 && n % 2 == 0)) continue;
+            walk(o, x, y);
+            smooth(o);
+            thin(o);
+            return true;
+        }
+    return false;
 }
 
 double outline_area(const Outline *o) {

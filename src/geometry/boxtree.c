@@ -119,6 +119,12 @@ static Vec3 segment_point(Vec3 p, Vec3 a, Vec3 b) {
 
 static double distance2(Vec3 a, Vec3 b) { return vec_dot(vec_sub(a, b), vec_sub(a, b)); }
 
+/* Squared; 0 inside the box. */
+static double box_distance2(Box b, Vec3 p) {
+    Vec3 inside = vec(clamp(p.x, b.low.x, b.high.x), clamp(p.y, b.low.y, b.high.y), clamp(p.z, b.low.z, b.high.z));
+    return distance2(p, inside);
+}
+
 /* The foot of the perpendicular, if it stands on the triangle; else a point of a side. */
 Vec3 boxtree_triangle_point(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
     Vec3 ab = vec_sub(b, a), bc = vec_sub(c, b), ca = vec_sub(a, c), n = vec_cross(ab, vec_sub(c, a));
