@@ -10,12 +10,12 @@
 enum { MARKS_MAX = 1024 };
 
 /* Where the values of a bone's line in an AMC file go. An ASF file lists degrees of freedom in any order, seven at
-   most: three of translation, three of rotation, and length. */
-enum { DOF_MAX = 7, DOF_LENGTH = CHANNEL_KINDS };
+   most: three of translation, three of rotation, and length, which no joint takes. */
+enum { DOF_LENGTH = CHANNEL_RZ + 1, DOF_MAX };
 typedef struct {
     const char *name;
     int joint, ndof;
-    int dof[DOF_MAX];  /* a ChannelKind or DOF_LENGTH, in the order of the values */
+    int dof[DOF_MAX];  /* a ChannelKind up to CHANNEL_RZ, or DOF_LENGTH; in the order of the values */
     int slot[DOF_MAX]; /* channel of the joint that takes it, -1: left out */
 } Bone;
 

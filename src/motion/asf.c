@@ -68,7 +68,7 @@ static bool read_order(Asf *a, char order[AXES + 1], Error *e) {
 
 /* The rest of the line: tx ty tz rx ry rz or l, each at most once. */
 static bool read_dof(Asf *a, Bone *b, Error *e) {
-    static const char *const names[] = {"tx", "ty", "tz", "rx", "ry", "rz", "l"};
+    static const char *const names[DOF_MAX] = {"tx", "ty", "tz", "rx", "ry", "rz", [DOF_LENGTH] = "l"};
     while (stream_blanks(&a->in) && *a->in.at != '#') {
         Word w = stream_peek(&a->in);
         int kind = 0;
