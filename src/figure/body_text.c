@@ -72,7 +72,6 @@ static bool read_section(const Line *line, BodyPartSpec *part, Error *e) {
             return text_error(line, i + 1, e, "a section needs at, x, z, side, front, back; '%s' is missing",
                               COLUMNS[i]);
         if (!text_real(line, i + 1, x, e)) return false;
-        if (*x == 0) *x = 0; /* -0 has no mirror image */
         if (fabs(*x) > limit)
             return text_error(line, i + 1, e, "%s must be from %g to %g", COLUMNS[i], i < 3 ? -limit : 0.0, limit);
         if (i >= 3 && *x < SIZE_LEAST)
