@@ -23,7 +23,7 @@ typedef struct {
     const PlotSeries *series;
 } Plot;
 
-enum { PLOT_SERIES_MAX = 8 };
+enum { PLOT_SERIES_MAX = 8 }; /* of a plot: each has a colour of its own */
 
 /* Writes `count` plots side by side as one SVG file, the same bytes for the same numbers. A plot
    without a single point is an error, never an empty picture: ERR_INPUT; ERR_OUTPUT. */

@@ -11,7 +11,8 @@ typedef struct { Vec3 p[4][4]; } Patch;
    partial derivatives. */
 Vec3 bezier_point(const Patch *patch, double u, double w, Vec3 *du, Vec3 *dw);
 
-/* Unit normal du x dw. Where a derivative vanishes (a pole) it is taken a little inside. */
+/* Unit normal du x dw. Where a derivative vanishes (a pole) it is taken a little inside; +y where the
+   patch has no area there either. */
 Vec3 bezier_normal(const Patch *patch, double u, double w);
 
 /* Equations (5) and (6) at t = 1/2 in both directions: four patches of the same surface.

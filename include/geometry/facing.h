@@ -17,8 +17,8 @@ MUST_CHECK bool facing_reserve(Facing *f, int vertices, int triangles, Arena *ar
 
 /* Replaces the normal of a vertex that points away from one of its facets, or nearly, by the one that is nearest to
    all of them. If no normal points to the same side as all of them, some of their corners get normals of their own
-   (creases, which belong to f). mesh->normal must have room for twice as many normals as vertices were reserved. A
-   second call changes nothing. */
+   (creases, which belong to f: at most as many as vertices were reserved; other corners keep the mean). mesh->normal
+   must have room for twice as many normals as vertices were reserved. A second call changes nothing. */
 void facing_mend(const Facing *f, Mesh *mesh);
 
 #endif

@@ -16,7 +16,7 @@ typedef struct {
     double *value[4], *slope[4];
 } GridRows;
 
-/* At i / facets, i = 0..facets. */
+/* At i / facets, i = 0..facets; facets >= 1. */
 MUST_CHECK bool grid_rows(int facets, Arena *arena, GridRows *out, Error *e);
 
 /* The rows first..first+n-1. */

@@ -28,7 +28,7 @@ typedef struct {
     int njoints, nchannels;
     Joint *joint;             /* what is below a joint stands right behind it */
     bool position_adds;       /* position channels add to the OFFSET; else they replace it */
-    bool points;              /* only roots turn by channels: other joints turn as the places of their children say */
+    bool points;              /* none but roots turn by channels: all turn as the places of their children say */
 } Skeleton;
 
 /* World transform of every joint (file units and axes) for one row of channel values.

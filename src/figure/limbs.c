@@ -7,7 +7,7 @@
 enum {
     DEPTH_MAX = 12,    /* joints of a chain that are looked at: arms of split bones reach the wrist at the eighth */
     START_MAX = 5,     /* a limb begins at most so many joints below the hub */
-    CHILDREN_MAX = 12, /* children of a hub that are tried */
+    CHILDREN_MAX = 12, /* limbs of a hub that are kept, the best one of each child */
 };
 
 /* Points. A fully named pair gets about 50, a well shaped one about 10 more. Won by names, times their weights: */
