@@ -36,18 +36,21 @@ void outline_clear(Outline *o, int left, int top, int right, int bottom) {
 void outline_above(Outline *o, int x, int y) { o->crack[y * (o->width + 1) + x] |= RIGHT; }
 void outline_left(Outline *o, int x, int y) { o->crack[y * (o->width + 1) + x] |= DOWN; }
 
-/* The crack from corner (x, y) in a direction: 0 right, 1 down, 2 left, 3 up. NULL: off the picture. */
+/* The byte and the bit of the crack from corner (x, y) in a direction: 0 right, 1 down, 2 left, 3 up. NULL: there is
+   none. */
 static unsigned char *crack_from(const Outline *o, int x, int y, int way, unsigned char *bit) {
     static const int dx[4] = {0, 0, -1, 0}, dy[4] = {0, 0, 0, -1};
     x += dx[way];
     y += dy[way];
     *bit = way % 2 == 0 ? RIGHT : DOWN;
-    return x < o->left || y < o->top ? NULL : &o->crack[y * (o->width + 1) + x];
+    if (x < o->left || y < o->top) return NULL;
+    unsigned char *c = &o->crack[y * (o->width + 1) + x];
+    return *c & *bit ? c : NULL;
 }
 
 static bool has_crack(const Outline *o, int x, int y, int way) {
-    unsigned char bit, *c = crack_from(o, x, y, way, &bit);
-    return c && *c & bit;
+    unsigned char bit;
+    return crack_from(o, x, y, way, &bit) != NULL;
 }
 
 static int degree(const Outline *o, int x, int y) {
@@ -63,11 +66,13 @@ static void walk(Outline *o, int x, int y) {
     o->count = 0;
     add_point(o, x, y);
     while (o->count < o->capacity - 1) {
-        int k = 0;
-        while (k < 4 && !has_crack(o, x, y, (way + turn[k]) % 4)) k++;
-        if (k == 4) break;
-        way = (way + turn[k]) % 4;
-        unsigned char bit, *c = crack_from(o, x, y, way, &bit);
+        unsigned char bit, *c = NULL;
+        int from = way;
+        for (int k = 0; k < 4 && !c; k++) {
+            way = (from + turn[k]) % 4;
+            c = crack_from(o, x, y, way, &bit);
+        }
+        if (!c) break;
         *c &= (unsigned char)~bit;
         add_point(o, x + 0.5 * dx[way], y + 0.5 * dy[way]);
         x += dx[way];
