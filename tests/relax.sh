@@ -31,6 +31,11 @@ dress through.bvh -o through --format none
 dress through.bvh -o apart --format none --relax-arms
 ok 'where they come in farther they leave it no room' test "$(limbs through)" -gt 0
 is 'with it they do' "$(limbs apart)" '0 '
+"$KITSUKE" dress through.bvh -g "$skirt" -o said --format none 2>err
+like 'the last line tells that they are in it' "$(tail -n 1 err)" \
+    ", 0 with residuals, $(limbs through | tr -d ' ') with limbs in the cloth, "
+"$KITSUKE" dress through.bvh -g "$skirt" -o unsaid --format none --relax-arms 2>err
+like 'and nothing where they are not' "$(tail -n 1 err)" ', 0 with residuals, 0\.0 kB in '
 most=$(column arm_turn relaxed/near/stats.csv | sort -n | tail -n 1)
 is 'the summary tells the largest turn' "$(column max_arm_turn relaxed/summary.csv)" "$most"
 ok "which is moderate ($most degrees)" awk -v x="$most" 'BEGIN { exit !(x > 5 && x < 30) }'

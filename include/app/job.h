@@ -15,6 +15,7 @@ typedef struct {
     int frames;              /* that were dressed */
     long long bytes;         /* that were written */
     int residual_frames;     /* with anything that still shows through any garment */
+    int limb_frames;         /* with a limb from outside in any garment */
     double seconds[STAGE_COUNT];
     SummaryRow *row;         /* ngarments of them, by the caller: sums over the frames so far */
     char *recorded;          /* the rows as text, where an earlier run has finished the motion, else NULL; malloc */

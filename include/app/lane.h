@@ -26,7 +26,7 @@ typedef struct {
 /* What a chunk gives, in the order of its frames. Arrays by the job. */
 typedef struct {
     StatsRow *row;         /* nrows of them */
-    int nrows, frames, residual_frames;
+    int nrows, frames, residual_frames, limb_frames;
     long long body_bytes, *bytes; /* written for the body, for each garment */
     double *seconds;       /* for each garment */
     double helped;         /* seconds that other threads spent on writing its files */

@@ -37,6 +37,7 @@ typedef struct {
 
 /* Does anything of the garment still go through what it may not? Limbs count apart. */
 bool stats_has_residual(const FrameStats *s);
+bool stats_has_limb(const FrameStats *s);
 
 void summary_add(SummaryRow *sum, const StatsRow *row);
 

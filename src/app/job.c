@@ -133,6 +133,7 @@ static bool write_chunk(Job *j, const ChunkResult *r, Error *e) {
     j->result->bytes += r->body_bytes;
     j->result->frames += r->frames;
     j->result->residual_frames += r->residual_frames;
+    j->result->limb_frames += r->limb_frames;
     jumps_append(&j->jumps, &r->jumps);
     return true;
 }
@@ -148,7 +149,7 @@ static void deliver(Job *j) {
 }
 
 static void clear(ChunkResult *r, int ngarments) {
-    r->nrows = r->frames = r->residual_frames = 0;
+    r->nrows = r->frames = r->residual_frames = r->limb_frames = 0;
     r->body_bytes = 0;
     r->helped = 0;
     r->jumps = (Jumps){0};

@@ -118,7 +118,7 @@ static bool dress_and_pose(Run *r, const Stance *now, Stance *next, StatsRow *ro
 
 static bool dress_frame(Run *r, const Stance *now, Stance *next, Error *e) {
     int n = r->work->wardrobe->ngarments;
-    bool residual = false;
+    bool residual = false, limb = false;
     StatsRow *row = &r->result->row[r->result->nrows];
     for (int g = 0; g < n; g++)
         row[g] = (StatsRow){.frame = now->frame.number, .time = now->frame.time, .arm_turn = now->frame.arm_turn,
@@ -126,10 +126,14 @@ static bool dress_frame(Run *r, const Stance *now, Stance *next, Error *e) {
                             .garment = r->work->wardrobe->garment[g]->name};
     share_pose(row, n, now->seconds);
     if (!dress_and_pose(r, now, next, row, e)) return false;
-    for (int g = 0; g < n; g++) residual = residual || stats_has_residual(&row[g].stats);
+    for (int g = 0; g < n; g++) {
+        residual = residual || stats_has_residual(&row[g].stats);
+        limb = limb || stats_has_limb(&row[g].stats);
+    }
     r->result->nrows += n;
     r->result->frames++;
     r->result->residual_frames += residual;
+    r->result->limb_frames += limb;
     return true;
 }
 

@@ -21,13 +21,14 @@ static void print_bytes(double bytes, FILE *out) {
 }
 
 void report_print(const Settings *s, const JobResult *result, int count, int workers, double seconds, FILE *out) {
-    long long frames = 0, residual = 0, bytes = 0;
+    long long frames = 0, residual = 0, limb = 0, bytes = 0;
     int done = 0, before = 0;
     for (int i = 0; i < count; i++) {
         done += result[i].error.kind <= ERR_CHECK;
         before += result[i].recorded != NULL;
         frames += result[i].frames;
         residual += result[i].residual_frames;
+        limb += result[i].limb_frames;
         bytes += result[i].bytes;
     }
     if (s->quiet) return;
@@ -37,6 +38,7 @@ void report_print(const Settings *s, const JobResult *result, int count, int wor
     if (before) fprintf(out, " (%d before)", before);
     if (frames) {
         fprintf(out, ", %lld frame%s, %lld with residuals, ", frames, frames == 1 ? "" : "s", residual);
+        if (limb) fprintf(out, "%lld with limbs in the cloth, ", limb);
         print_bytes((double)bytes, out);
         fprintf(out, " in %.1f s (%.0f frames/s)", seconds, (double)frames / seconds);
     }

@@ -99,12 +99,13 @@ static const struct {
 };
 
 bool stats_has_residual(const FrameStats *s) { return s->residual_edges > 0 || s->residual_cloth > 0 || s->inside > 0; }
+bool stats_has_limb(const FrameStats *s) { return s->limb_edges > 0 || s->limb_cloth > 0 || s->limb_inside > 0; }
 
 void summary_add(SummaryRow *sum, const StatsRow *row) {
     const FrameStats *s = &row->stats;
     sum->frames++;
     sum->residual_frames += stats_has_residual(s);
-    sum->limb_frames += s->limb_edges > 0 || s->limb_cloth > 0 || s->limb_inside > 0;
+    sum->limb_frames += stats_has_limb(s);
     sum->pinched_frames += s->pinched > 0;
     sum->capped_frames += s->capped;
     sum->residual_edges += s->residual_edges;
