@@ -203,7 +203,7 @@ const Option settings_table[] = {
     {"max-memory", 0, KIND_INT, FIELD(max_memory), "MB", "Run", COMMAND_DRESS,
      "refuse motions that need more for a thread", .fallback = "no limit", RANGE(1, 1e6), .manner = true},
     {"strict", 0, KIND_FLAG, FIELD(strict), NULL, "Run", COMMAND_DRESS,
-     "exit with 1 if the body shows through a garment anywhere", .manner = true},
+     "exit with 1 if what a garment is worn over shows through it; limbs from outside do not count", .manner = true},
     {"job", 0, KIND_TEXT, FIELD(job), "FILE", "Run", COMMAND_ALL,
      "read options from lines 'name value'; what the command line says wins", .manner = true},
     {"print-job", 0, KIND_FLAG, FIELD(print_job), NULL, "Run", COMMAND_ALL,
