@@ -35,8 +35,10 @@ typedef struct {
     double arm_turn;     /* the largest of all frames */
 } SummaryRow;
 
-/* Does anything of the garment still go through what it may not? Limbs count apart. */
+/* Does anything of the garment still go through what it is worn over? */
 bool stats_has_residual(const FrameStats *s);
+
+/* Through any other part, such as a hand that comes from outside? */
 bool stats_has_limb(const FrameStats *s);
 
 void summary_add(SummaryRow *sum, const StatsRow *row);
