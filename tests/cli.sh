@@ -162,6 +162,9 @@ piped_roles
 is 'roles from one are not passed over' "$?,$(head -n 1 err)" \
     "3,/dev/stdin:1:10: error: unknown joint 'Hipps'; did you mean 'Hips'?"
 like 'inspect looks into one' "$(cat "$walk" | "$KITSUKE" inspect /dev/stdin)" '^/dev/stdin: BVH motion$'
+like 'and tells how it knows the unit' "$("$KITSUKE" inspect "$walk")" \
+    '^  unit        cm \(0\.01 m\), found from the size$'
+like 'or that it was told' "$("$KITSUKE" inspect --unit cm "$walk")" '^  unit        given \(0\.01 m\)$'
 
 "$KITSUKE" inspect "$walk" >out 2>err
 is 'inspect says nothing on stderr' "$(cat err)" ''

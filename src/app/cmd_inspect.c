@@ -97,9 +97,16 @@ static void print_motion(const Motion *m) {
            (m->nframes - 1) * m->frame_time);
 }
 
-static void print_figure(const Motion *m, const Figure *f) {
+/* A unit that the file names is left, too, if the figure would have an odd size in it. */
+static const char *unit_source(const Motion *m, const Settings *s, const Figure *f) {
+    if (s->unit > 0) return "";
+    double scale = s->scale > 0 ? s->scale : 1;
+    return fabs(f->unit - m->file_unit * scale) < 1e-9 * f->unit ? ", by the file" : ", found from the size";
+}
+
+static void print_figure(const Motion *m, const Settings *s, const Figure *f) {
     const char *sign = f->up >= 'a' ? "" : "-";
-    printf("  unit        %s (%.6g m)\n", f->unit_name, f->unit);
+    printf("  unit        %s (%.6g m)%s\n", f->unit_name, f->unit, unit_source(m, s, f));
     printf("  up          %s%c\n", sign, f->up >= 'a' ? f->up : f->up - 'A' + 'a');
     printf("  height      %.3f m\n", f->height);
     printf("  rest        %s\n", f->rest);
@@ -134,7 +141,7 @@ static bool inspect_figure(const Motion *m, const Settings *s, const RoleFile *f
         return true;
     }
     if (!figure_build(m, &roles, &options, arena, notes, &figure, e)) return false;
-    print_figure(m, &figure);
+    print_figure(m, s, &figure);
     return look_for_jumps(m, &figure, arena, notes, e);
 }
 
