@@ -79,6 +79,20 @@ static inline Pose scene_reaching(const Scene *s, double degrees) {
     return scene_arm_turned(s, vec(0, 0, -1), degrees);
 }
 
+/* Sits with the knees apart, and the left arm hangs down between them. */
+static inline Pose scene_hand_in_lap(const Scene *s, double forwards) {
+    enum { SEAT = 75, APART = 25, ACROSS = 60 };
+    Pose pose = scene_reaching(s, ACROSS);
+    scene_bend(s, &pose, ROLE_LEFT_UPPER_ARM, ROLE_LEFT_HAND, forwards);
+    for (int left = 0; left < 2; left++) {
+        Role thigh = left ? ROLE_LEFT_THIGH : ROLE_RIGHT_THIGH;
+        Mat3 outwards = mat_axis_angle(vec(0, 1, 0), (left ? APART : -APART) * PI / 180);
+        scene_leg(s, &pose, left, SEAT, SEAT);
+        scene_turn(s, &pose, thigh, (Role)(thigh + 3), outwards);
+    }
+    return pose;
+}
+
 /* One frame in a pose. */
 static inline FrameStats scene_frame(Scene *s, Dresser *d, const Pose *pose, double dt, Tie tie, Mesh *mesh) {
     FrameStats stats;

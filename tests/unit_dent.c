@@ -43,22 +43,6 @@ static void hand_on_cloth(const char *garment, double touches, double presses, d
     arena_free(&s.arena);
 }
 
-/* Sits with the knees apart, and an arm hangs down between them. */
-static Pose hand_in_lap(const Scene *s, double forwards) {
-    enum { SEAT = 75, APART = 25, ACROSS = 60 };
-    Pose pose = scene_reaching(s, ACROSS);
-    scene_bend(s, &pose, ROLE_LEFT_UPPER_ARM, ROLE_LEFT_HAND, forwards);
-    for (int left = 0; left < 2; left++) {
-        Role thigh = left ? ROLE_LEFT_THIGH : ROLE_RIGHT_THIGH;
-        scene_leg(s, &pose, left, SEAT, SEAT);
-        Vec3 hip = rigid_apply(pose.bone[thigh], s->figure.start[thigh]);
-        Mat3 turn = mat_axis_angle(vec(0, 1, 0), (left ? APART : -APART) * PI / 180);
-        Rigid about = {turn, vec_sub(hip, mat_apply(turn, hip))};
-        for (int r = (int)thigh; r <= (int)thigh + 3; r++) pose.bone[r] = rigid_mul(about, pose.bone[r]);
-    }
-    return pose;
-}
-
 /* The most by which an edge is longer than without the hollow, as a factor. */
 static double longest_stretch(const Mesh *m, const Vec3 *flat) {
     double most = 0;
@@ -83,7 +67,7 @@ static void hand_between_knees(int facets) {
     int shown = 0, own_shown = 0;
     double shallowest = INFINITY, jump = 0, stretch = 0;
     for (int k = 0; k < STEPS; k++) {
-        Pose pose = hand_in_lap(&s, FROM + k * BY);
+        Pose pose = scene_hand_in_lap(&s, FROM + k * BY);
         Mesh mesh;
         FrameStats without = scene_frame(&s, global, &pose, 0, TIE_AFRESH, &mesh);
         if (k == 0) {
@@ -116,7 +100,7 @@ static void hand_anywhere(void) {
     Dresser *push = scene_dresser(&s, (DressOptions){.fixed_topology = true});
     int shown = 0, told = 0, own_shown = 0;
     for (int k = 0; k < STEPS; k++) {
-        Pose pose = hand_in_lap(&s, 2 * k - 10);
+        Pose pose = scene_hand_in_lap(&s, 2 * k - 10);
         Mesh mesh;
         FrameStats with = scene_frame(&s, push, &pose, 0, TIE_AFRESH, &mesh);
         shown += shows(&with) > 0;
@@ -143,7 +127,7 @@ static void half_the_size(const char *garment) {
     for (int k = 0; k < 5; k++) {
         FrameStats stats[2];
         for (int i = 0; i < 2; i++) {
-            Pose pose = k < 2 ? hand_in_lap(&scene[i], 33 + k) : scene_reaching(&scene[i], 37.5 + 2.5 * k);
+            Pose pose = k < 2 ? scene_hand_in_lap(&scene[i], 33 + k) : scene_reaching(&scene[i], 37.5 + 2.5 * k);
             stats[i] = scene_frame(&scene[i], dresser[i], &pose, 1 / 30.0, k ? TIE_GOES_ON : TIE_AFRESH, &mesh[i]);
         }
         for (int v = 0; v < mesh[0].nvertices; v++)

@@ -1,6 +1,7 @@
 /* Folds: the plane that halves the bend of a joint, the flesh that ends there, and the cloth that stays on its side. */
 #include "dress/crease.h"
 #include "specimen.h"
+#include "turns.h"
 
 static Fold fold_of(const Scene *s, const Pose *pose, Role lower) {
     Folds folds = folds_find(&s->body, pose);
@@ -46,7 +47,7 @@ static void a_fold_does_not_turn_over(Scene *s) {
         Pose pose = figure_rest_pose();
         scene_turn(s, &pose, ROLE_LEFT_THIGH, ROLE_LEFT_TOE, turn);
         Fold f = fold_of(s, &pose, ROLE_LEFT_THIGH);
-        if (degrees < 50) most = fmax(most, acos(clamp(vec_dot(f.across, before), -1, 1)) * 180 / PI);
+        if (degrees < 50) most = fmax(most, angle(f.across, before));
         before = f.across;
     }
     OK(most < 10, "a degree of a hip that is bent flat turns its fold by no more than %.1f degrees", most);

@@ -1,30 +1,32 @@
 /* A hand that hangs into the lap of a skirt: in which direction it presses, on which side of the cloth, and what is
    drawn along when a vertex is taken back. */
+#include "turns.h"
 #include "worn.h"
 
-/* Sits, and an arm hangs down before the belly. */
-static void hand_in_lap(Worn *w) {
+/* A hand in the lap, which presses nothing yet. */
+static void lay_hand(Worn *w) {
     worn_open(w, "skirt", 5, 2);
     Scene *s = &w->of.scene;
-    Pose pose = scene_reaching(s, 60);
-    scene_bend(s, &pose, ROLE_LEFT_UPPER_ARM, ROLE_LEFT_HAND, 34);
-    for (int left = 0; left < 2; left++) scene_leg(s, &pose, left, 75, 75);
+    Pose pose = scene_hand_in_lap(s, 34);
     worn_pose(w, &pose, 2);
     push_rest(&w->cloth.push);
     near_find(w->cloth.push.near, &s->posed, &w->cloth.sheet, w->cloth.push.point, 0.05, false);
 }
 
-static double angle_between(Vec3 a, Vec3 b) { return atan2(vec_len(vec_cross(a, b)), vec_dot(a, b)); }
+static void press_hand(Worn *w) {
+    bool capped = false;
+    lay_hand(w);
+    dent_all(&w->cloth.settler.denter, &w->cloth.push, &capped);
+}
 
 /* As if in the frame before the arm had pressed in another direction. */
 static void directions_turn_slowly(void) {
     static const double dt = 1.0 / 60, TURNS = 15; /* radians a second, as in src/dress/dent.c */
     static Worn w;
     bool capped = false;
-    hand_in_lap(&w);
+    press_hand(&w);
     Push *p = &w.cloth.push;
     Denter *d = &w.cloth.settler.denter;
-    dent_all(d, p, &capped);
     Vec3 now = p->field.way[LIMB_LEFT_ARM], aside = vec_unit_or(vec_cross(now, vec(1, 0, 0)), vec(0, 0, 1));
     Vec3 before = vec_unit_or(vec_add(now, aside), now);
     for (int v = 0; v < p->sheet->nvertices; v++)
@@ -36,8 +38,8 @@ static void directions_turn_slowly(void) {
     push_rest(p);
     dent_all(d, p, &capped);
     Vec3 way = p->field.way[LIMB_LEFT_ARM];
-    NEAR(angle_between(before, way), TURNS * dt, 1e-9, "a limb's direction turns by no more than it may");
-    NEAR(angle_between(before, way) + angle_between(way, now), angle_between(before, now), 1e-9,
+    NEAR(angle(before, way), TURNS * dt / DEGREE, 1e-9, "a limb's direction turns by no more than it may");
+    NEAR(angle(before, way) + angle(way, now), angle(before, now), 1e-9,
          "on the shortest way to where it presses now");
     arena_free(&w.of.scene.arena);
 }
@@ -45,7 +47,7 @@ static void directions_turn_slowly(void) {
 /* The limb is behind all of the cloth, also behind the far side, whose inward normal is against its direction. */
 static void presses_its_own_side(void) {
     static Worn w;
-    hand_in_lap(&w);
+    lay_hand(&w);
     Push *p = &w.cloth.push;
     Hollow *h = &w.cloth.settler.denter.hollow;
     Touch t = touch_find(p);
@@ -70,11 +72,9 @@ static void presses_its_own_side(void) {
 static void cloth_is_drawn_along(void) {
     static const double LEAST = 0.999; /* as in src/dress/dent.c */
     static Worn w;
-    bool capped = false;
-    hand_in_lap(&w);
+    press_hand(&w);
     Push *p = &w.cloth.push;
     Denter *d = &w.cloth.settler.denter;
-    dent_all(d, p, &capped);
     int deepest = 0, torn = 0, most = 0;
     for (int v = 0; v < p->sheet->nvertices; v++)
         if (d->depth[LIMB_LEFT_ARM][v] > d->depth[LIMB_LEFT_ARM][deepest]) deepest = v;

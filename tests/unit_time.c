@@ -181,13 +181,12 @@ static void no_room_is_no_haste(void) {
     Scene s;
     scene_open(&s, "trousers");
     Dresser *pushed = open_dresser(&s, METHOD_PUSH), *global = open_dresser(&s, METHOD_GLOBAL);
-    Vec3 *last = NULL, hip = s.figure.start[ROLE_LEFT_THIGH];
+    Vec3 *last = NULL;
     int shows = 0, fast = 0;
     for (int f = 0; f < FRAMES; f++) {
         Pose pose = figure_rest_pose();
         Mat3 turn = mat_axis_angle(vec(0, 0, -1), (5 + 0.5 * f) * PI / 180);
-        Rigid about = {turn, vec_sub(hip, mat_apply(turn, hip))};
-        for (int r = ROLE_LEFT_THIGH; r <= ROLE_LEFT_TOE; r++) pose.bone[r] = about;
+        scene_turn(&s, &pose, ROLE_LEFT_THIGH, ROLE_LEFT_TOE, turn);
         Mesh cloth, plain;
         Tie tie = f == 0 ? TIE_AFRESH : TIE_GOES_ON;
         FrameStats stats = scene_frame(&s, pushed, &pose, 1 / RATE, tie, &cloth);

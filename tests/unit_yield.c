@@ -11,8 +11,7 @@ static Pose arms_down(const Scene *s, double degrees) {
     for (int side = 0; side < 2; side++) {
         Role arm = side ? ROLE_RIGHT_UPPER_ARM : ROLE_LEFT_UPPER_ARM;
         Mat3 turn = mat_axis_angle(vec(0, 0, 1), (side ? degrees : -degrees) * PI / 180);
-        Rigid about = {turn, vec_sub(s->figure.start[arm], mat_apply(turn, s->figure.start[arm]))};
-        for (int r = (int)arm; r <= (int)arm + 2; r++) p.bone[r] = rigid_mul(about, p.bone[r]);
+        scene_turn(s, &p, arm, (Role)(arm + 2), turn);
     }
     return p;
 }
