@@ -15,6 +15,7 @@ typedef struct {
     double height;             /* stature, metres */
     double unit;               /* metres per file unit */
     const char *unit_name;     /* "cm", "inch", ... or "unknown" */
+    bool unit_is_guess;        /* found from the size: neither the options nor the file say it */
     char up;                   /* up axis of the motion: 'x', 'y', 'z'; upper case = negative */
     Mat3 upright;              /* file axes -> Y up */
     Vec3 start[ROLE_COUNT];    /* where each bone begins in the canonical stance */

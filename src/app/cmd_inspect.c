@@ -97,16 +97,10 @@ static void print_motion(const Motion *m) {
            (m->nframes - 1) * m->frame_time);
 }
 
-/* A unit that the file names is left, too, if the figure would have an odd size in it. */
-static const char *unit_source(const Motion *m, const Settings *s, const Figure *f) {
-    if (s->unit > 0) return "";
-    double scale = s->scale > 0 ? s->scale : 1;
-    return fabs(f->unit - m->file_unit * scale) < 1e-9 * f->unit ? ", by the file" : ", found from the size";
-}
-
 static void print_figure(const Motion *m, const Settings *s, const Figure *f) {
+    const char *source = f->unit_is_guess ? ", found from the size" : s->unit > 0 ? "" : ", by the file";
     const char *sign = f->up >= 'a' ? "" : "-";
-    printf("  unit        %s (%.6g m)%s\n", f->unit_name, f->unit, unit_source(m, s, f));
+    printf("  unit        %s (%.6g m)%s\n", f->unit_name, f->unit, source);
     printf("  up          %s%c\n", sign, f->up >= 'a' ? f->up : f->up - 'A' + 'a');
     printf("  height      %.3f m\n", f->height);
     printf("  rest        %s\n", f->rest);

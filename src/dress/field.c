@@ -136,7 +136,7 @@ void field_carry(Field *f, const BodyFrame *body, double dt, bool restart, Leave
     const Lattice *l = f->lattice;
     Carry c = field_carry_to(f, body, dt);
     if (restart) field_forget(f);
-    drop_beyond_cap(f);
+    else drop_beyond_cap(f);
     for (int level = 0; level <= l->depth; level++)
         for (int v = 0; v < l->level[level].count; v++)
             if (field_carry_one(&f->displacement[f->start[level] + v], &c)) leaves_open(leaves, level, v);

@@ -151,7 +151,8 @@ static const double ADULT_LEAST = 1.4, ADULT_MOST = 2.1, GIANT_MOST = 2.6;
 static void find_unit(double stature, double file_unit, Figure *f) {
     f->unit = FIGURE_STATURE / stature;
     f->unit_name = "unknown";
-    if (file_unit > 0 && stature * file_unit > 0.5 && stature * file_unit < 2.5) {
+    f->unit_is_guess = !(file_unit > 0 && stature * file_unit > 0.5 && stature * file_unit < 2.5);
+    if (!f->unit_is_guess) {
         f->unit = file_unit;
         f->unit_name = "given by the file";
         for (int i = 0; i < NUNITS; i++)
@@ -284,7 +285,7 @@ bool figure_measure(const Motion *m, const FigureOptions *options, const Sample 
     /* How many times the reference adult, in file units. */
     double k = known / (adult.thigh + adult.shin + adult.torso);
     find_unit(k * FIGURE_STATURE, m->file_unit, f);
-    if (options->unit > 0) f->unit = options->unit, f->unit_name = "given";
+    if (options->unit > 0) f->unit = options->unit, f->unit_name = "given", f->unit_is_guess = false;
     else if (f->unit_name[0] == 'u')
         notes_add(notes, (Place){0}, "unit unknown: %.4g units tall, taken for %.2f m", k * FIGURE_STATURE,
                   FIGURE_STATURE);
