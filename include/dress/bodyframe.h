@@ -7,9 +7,9 @@
 
 #include <pthread.h>
 
-/* Private. How far a vertex of the skin gives way, and its measured distance from its part where nothing presses (about
-   0); metres. */
-typedef struct { double by, level; } Give;
+/* Private. How far a vertex of the skin gives way, its measured distance from its part where nothing presses (about 0),
+   and how far it goes in beyond that for the sake of its edges; metres. */
+typedef struct { double by, level, sunk; } Give;
 
 /* Private. Boxes over the edges and triangles of each part's skin. They are made on demand, since many parts are far
    from any garment; by one thread at a time, since several may dress garments on this body. */
