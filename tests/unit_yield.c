@@ -100,7 +100,7 @@ static void skin_is_the_surface(Scene *s) {
             if (by < 1e-5) continue;
             moved++;
             double above = body_frame_distance(&s->posed, p, s->posed.position[v], 1, NULL);
-            worst = fmax(worst, fmax(above, -above - sunk));
+            worst = fmax(worst, sunk > 0 ? above : fabs(above));
             below = fmax(below, -above);
         }
         out += edges_stand_out(s, p, &nedges);

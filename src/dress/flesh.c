@@ -150,7 +150,7 @@ static void give_way(BodyFrame *f, int p) {
 
 /* Where a part has given way its surface is hollow. There the straight edges between the skin's vertices stand out of
    it, by some millimetres, which is as much as the cloth has for itself. So the vertices go in by as much, each in
-   proportion to how far it has given way and at most that far again, so that nothing jumps when parts begin to touch. */
+   proportion to how far it has given way and at most that far again: nothing jumps when parts begin to touch. */
 static void sink_edges(BodyFrame *f, int p) {
     static const double MOST = 0.008; /* metres on 1.70 m: over a narrow dent an edge stands out far */
     const BodyPart *part = &f->body->part[p];
