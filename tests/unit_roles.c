@@ -321,6 +321,10 @@ static void test_oddities(void) {
            strcmp(rig_joint(&r, ROLE_LEFT_HAND), "j31") == 0 && strcmp(rig_joint(&r, ROLE_RIGHT_SHIN), "j8") == 0,
        "split bones without names");
     rig_close(&r);
+    OK(rig_roles(&r, "tests/data/figure/low_ribs.bvh", NULL) && strcmp(rig_joint(&r, ROLE_LEFT_FOREARM), "j13") == 0 &&
+           strcmp(rig_joint(&r, ROLE_RIGHT_FOREARM), "j7") == 0,
+       "an upper arm is not made longer to bring a far shoulder nearer");
+    rig_close(&r);
     OK(rig_roles(&r, "tests/data/figure/chest_root.bvh", NULL) && strcmp(rig_joint(&r, ROLE_PELVIS), "Hips") == 0 &&
            strcmp(rig_joint(&r, ROLE_HEAD), "Head") == 0,
        "a tree that hangs from the chest");

@@ -114,6 +114,13 @@ static double unlikeness(const Limb *a, const Limb *b) {
     return MIRROR * (square(log(a->length[0] / b->length[0])) + square(log(a->length[1] / b->length[1])));
 }
 
+/* How many upper bones beyond the first one a limb starts from the hub. An elbow too low makes that bone longer: it
+   counts no more than the usual share of the limb, or the shoulder would seem nearer. */
+static double far_start(LimbKind kind, const Limb *limb, double along) {
+    double ratio = exp(EVEN[kind]), usual = ratio / (1 + ratio) * (limb->length[0] + limb->length[1]);
+    return fmax(0, along / fmin(limb->length[0], usual) - 1);
+}
+
 /* Scores the limb of the chain's joints a, b and its last one, and keeps it in *best if it is better. */
 static void try_limb(const Tree *t, LimbKind kind, const Way *w, int a, int b, Limb *best) {
     int c = w->count - 1, end = w->joint[c];
@@ -128,7 +135,7 @@ static void try_limb(const Tree *t, LimbKind kind, const Way *w, int a, int b, L
     limb.score = name_points(t, kind, limb.joint) - UNEVEN * uneven * uneven;
     limb.score += COVERAGE * fmin(1, both / total / SHARE[kind]);
     limb.score += skip_points(t, w, a, b, limb.length[0]) + skip_points(t, w, b, c, limb.length[1]);
-    limb.score -= FAR_START * fmax(0, w->along[a] / limb.length[0] - 1);
+    limb.score -= FAR_START * far_start(kind, &limb, w->along[a]);
     if (t->skeleton->joint[end].is_end) limb.score -= NO_END_JOINT;
     if (t->bone[end] < NO_WAY * both) limb.score -= COINCIDES;
     if (kind == LIMB_ARM) {
