@@ -20,9 +20,10 @@ Step jumps_judge(const JumpRule *rule, int frame, const Pose *behind, const Pose
 /* Neighbouring frames first..last, from 1, each that far (in heights) from the one before. */
 typedef struct { int first, last; double width; Step kind; } Jump;
 
-/* The first few in the order of the frames; `count` goes on counting. Clear with {0}. */
+/* The first few in the order of the frames, and where there are more, behind them the last of all; `count` goes on
+   counting. Clear with {0}. */
 enum { JUMPS_KEPT = 4 };
-typedef struct { int count; Jump jump[JUMPS_KEPT]; } Jumps;
+typedef struct { int count; Jump jump[JUMPS_KEPT + 1]; } Jumps;
 
 /* A step onto `frame`. Neighbours of one kind become one jump. */
 void jumps_add(Jumps *j, int frame, double width, Step kind);

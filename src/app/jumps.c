@@ -30,27 +30,28 @@ Step jumps_judge(const JumpRule *rule, int frame, const Pose *behind, const Pose
     return is_fast ? STEP_FLIP : STEP_PLAIN;
 }
 
-/* The last one, if `next` only goes on with it. */
-static Jump *continued(Jumps *j, const Jump *next) {
-    Jump *last = j->count && j->count <= JUMPS_KEPT ? &j->jump[j->count - 1] : NULL;
-    return last && last->last == next->first - 1 && last->kind == next->kind ? last : NULL;
+/* The last of `count`. */
+static Jump *last_of(Jumps *j, int count) { return &j->jump[count <= JUMPS_KEPT ? count - 1 : JUMPS_KEPT]; }
+
+static bool goes_on(const Jump *last, const Jump *next) {
+    return last->last == next->first - 1 && last->kind == next->kind;
 }
 
 static void append(Jumps *j, Jump next) {
-    Jump *last = continued(j, &next);
-    if (last) {
-        last->last = next.last;
-        last->width = larger(last->width, next.width);
-    } else if (j->count++ < JUMPS_KEPT) {
-        j->jump[j->count - 1] = next;
+    if (j->count == 0 || !goes_on(last_of(j, j->count), &next)) {
+        *last_of(j, ++j->count) = next;
+        return;
     }
+    Jump *last = last_of(j, j->count);
+    last->last = next.last;
+    last->width = larger(last->width, next.width);
 }
 
 void jumps_add(Jumps *j, int frame, double width, Step kind) { append(j, (Jump){frame, frame, width, kind}); }
 
 void jumps_append(Jumps *j, const Jumps *later) {
-    for (int i = 0; i < later->count && i < JUMPS_KEPT; i++) append(j, later->jump[i]);
-    if (later->count > JUMPS_KEPT) j->count += later->count - JUMPS_KEPT;
+    for (int i = 0; i < later->count && i <= JUMPS_KEPT; i++) append(j, later->jump[i]);
+    if (later->count > JUMPS_KEPT) j->count += later->count - JUMPS_KEPT - 1;
 }
 
 static void note(const Jump *j, Place place, Notes *notes) {
