@@ -36,6 +36,10 @@ like 'with its number' "$(cat err)" 'shard 2 of 2 is missing'
 ok 'a shard twice: exit 3' must_fail 3 "$KITSUKE" dress --merge a a -o joined
 sed '/^walk2,/d' a/summary.1-of-2.csv >b/summary.1-of-2.csv
 ok 'a shard that lacks rows: exit 3' must_fail 3 "$KITSUKE" dress --merge b
+(grep '^#' a/summary.1-of-2.csv | sed '$d'; grep '^motion,' a/summary.1-of-2.csv
+    echo '# shard 1 of 2147483647 of 2147483647 motions') >b/summary.1-of-2.csv
+ok 'nor one of more shards than there can be: exit 3' must_fail 3 "$KITSUKE" dress --merge b
+like 'which is said' "$(cat err)" 'holds 0 motions, which do not fit its shard 1 of 2147483647 of 2147483647'
 cp in/walk1.bvh b/summary.1-of-2.csv
 ok 'what is no summary: exit 3' must_fail 3 "$KITSUKE" dress --merge b
 ok 'no folder: exit 3' must_fail 3 "$KITSUKE" dress --merge nowhere

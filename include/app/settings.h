@@ -18,6 +18,7 @@ typedef struct { int first, last, step; } FrameSpan;
 
 /* The k-th of n parts, from 1; 0: the whole. */
 typedef struct { int k, n; } Shard;
+enum { SHARDS_MAX = 100000 };
 
 typedef struct { int count, capacity; const char **item; } TextList;
 

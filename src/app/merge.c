@@ -70,11 +70,11 @@ static bool read_summary(Merge *m, const char *path, Summary *s) {
     if (strncmp(text.data, "# kitsuke summary", 17) != 0 || (*last && !is_shard))
         return error_set(m->e, ERR_INPUT, "'%s' is no summary of kitsuke", path);
     if (!is_shard) return true;
-    /* how many of 0 .. total - 1 leave k - 1 when divided by n */
-    bool fits = s->shard.n > 0 && s->shard.k >= 1 && s->shard.k <= s->shard.n && s->total >= 0 &&
-                s->count == (s->total - s->shard.k + s->shard.n) / s->shard.n;
+    int k = s->shard.k, n = s->shard.n, total = s->total;
+    bool fits = 1 <= k && k <= n && n <= SHARDS_MAX && total >= 0 &&
+                s->count == (total < k ? 0 : (total - k) / n + 1); /* of 0 .. total - 1 leave k - 1 when divided by n */
     return fits || error_set(m->e, ERR_INPUT, "'%s' holds %d motions, which do not fit its shard %d of %d of %d", path,
-                             s->count, s->shard.k, s->shard.n, s->total);
+                             s->count, k, n, total);
 }
 
 static bool add(Merge *m, const char *path) {

@@ -151,11 +151,10 @@ static bool put_stairs(Gait *field, const Option *option, const char *text, Erro
 
 /* K/N with 1 <= K <= N */
 static bool put_shard(Shard *field, const Option *option, const char *text, Error *e) {
-    enum { MOST = 100000 };
     const char *slash = strchr(text, '/'), *end = text + strlen(text);
     double k = 0, n = 0;
     bool good = slash && text_number(text, slash, &k) == slash && text_number(slash + 1, end, &n) == end;
-    if (!good || !(k >= 1 && k <= n && n <= MOST) || k != (int)k || n != (int)n)
+    if (!good || !(k >= 1 && k <= n && n <= SHARDS_MAX) || k != (int)k || n != (int)n)
         return settings_expected(option->name, "K/N with 1 <= K <= N", text, e);
     *field = (Shard){(int)k, (int)n};
     return true;
