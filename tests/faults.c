@@ -7,10 +7,12 @@
        memory:N   an allocation fails
        late:MS    whoever has told other threads of something sleeps so long behind the lock
        short:1    every write takes but half of what it is given
+       list:N     a folder cannot be listed to its end: no more than N - 1 names of all
 
    Such a call is: open for writing, write, close of what was written, rename, unlink, mkdir, syncfs. Where
    the N-th call comes, the file FAULT_HIT is made. */
 #define _GNU_SOURCE
+#include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -31,14 +33,14 @@ void *__libc_calloc(size_t n, size_t size);
 void *__libc_realloc(void *p, size_t n);
 void *__libc_memalign(size_t align, size_t n);
 
-static enum { NOTHING, WRITE, FULL, KILL, MEMORY, LATE, SHORT } fault;
+static enum { NOTHING, WRITE, FULL, KILL, MEMORY, LATE, SHORT, LIST } fault;
 static long at;
 static atomic_long calls;
 
 __attribute__((constructor)) static void start(void) {
-    static const char *const words[] = {"", "write:", "full:", "kill:", "memory:", "late:", "short:"};
+    static const char *const words[] = {"", "write:", "full:", "kill:", "memory:", "late:", "short:", "list:"};
     const char *text = getenv("FAULT");
-    for (int i = WRITE; text && i <= SHORT; i++) {
+    for (int i = WRITE; text && i <= LIST; i++) {
         if (strncmp(text, words[i], strlen(words[i])) != 0) continue;
         at = strtol(text + strlen(words[i]), NULL, 10);
         fault = i;
@@ -124,6 +126,13 @@ int mkdir(const char *path, mode_t mode) {
 int syncfs(int fd) {
     NEXT(int, syncfs, int);
     return fails() ? -1 : next(fd);
+}
+
+struct dirent *readdir(DIR *folder) {
+    NEXT(struct dirent *, readdir, DIR *);
+    if (fault != LIST || !is_hit(true)) return next(folder);
+    errno = EIO;
+    return NULL;
 }
 
 /* A stream's writes are the C library's own; behind this one they are ours. */

@@ -189,6 +189,17 @@ ok 'no memory at any one allocation' every memory 1 '0 3 4 5'
 short() { under short:1 "$KITSUKE" "${tiny[@]}" -o short; [ "$code" -eq 0 ] && diff -r whole short; }
 ok 'writes that take but half of what they get' short
 
+# A folder whose names cannot all be had may hold anything
+cp -r whole listed
+kept() { # kept MESSAGE ARGUMENT...: a run that cannot list the folder says so, and leaves what is there
+    local message=$1 code
+    shift
+    under list:1 "$KITSUKE" "${tiny[@]::${#tiny[@]}-1}" -o listed "$@"
+    [ "$code" -eq 4 ] && grep "$message" fault.err && diff -r -x .done -x summary.csv whole listed
+}
+ok 'a folder that cannot be listed is not taken for empty' kept 'holds files of an earlier run'
+ok 'nor for cleared' kept "cannot list the folder 'listed/tiny'" --force
+
 # Every other command, where each allocation fails once: the same output, or none and the reason
 frugal() { # frugal ARGUMENT...: ends with the output in the file or folder `made`
     local n

@@ -4,7 +4,8 @@
 
 #include "base/error.h"
 
-/* Does the folder hold any file? Folders in it do not count: they are other motions'. */
+/* Does the folder hold any file? Folders in it do not count: they are other motions'. True for one that is there and
+   cannot be read. */
 bool folder_has_files(const char *path);
 
 /* Removes what an earlier run wrote (its record, stats.csv, NAME.0001.obj and .drc, temporaries of

@@ -16,11 +16,12 @@ bool folder_has_files(const char *path) {
     DIR *folder = opendir(path);
     if (!folder) return errno != ENOENT && errno != ENOTDIR;
     bool found = false;
-    for (struct dirent *entry; !found && (entry = readdir(folder));) {
+    for (struct dirent *entry; !found && (errno = 0, entry = readdir(folder));) {
         struct stat info;
         if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
         found = fstatat(dirfd(folder), entry->d_name, &info, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISDIR(info.st_mode);
     }
+    found = found || errno != 0;
     closedir(folder);
     return found;
 }
@@ -42,9 +43,10 @@ bool folder_clear(const char *path, Error *e) {
     if (!folder) return error_set(e, ERR_OUTPUT, "cannot open the folder '%s': %s", path, strerror(errno));
     bool good = unlinkat(dirfd(folder), RECORD_NAME, 0) == 0 || errno == ENOENT ||
                 error_set(e, ERR_OUTPUT, "cannot remove '%s/" RECORD_NAME "': %s", path, strerror(errno));
-    for (struct dirent *entry; good && (entry = readdir(folder));)
+    for (struct dirent *entry; good && (errno = 0, entry = readdir(folder));)
         if (is_ours(entry->d_name) && unlinkat(dirfd(folder), entry->d_name, 0) != 0 && errno != ENOENT)
             good = error_set(e, ERR_OUTPUT, "cannot remove '%s/%s': %s", path, entry->d_name, strerror(errno));
+    if (good && errno) good = error_set(e, ERR_OUTPUT, "cannot list the folder '%s': %s", path, strerror(errno));
     closedir(folder);
     return good;
 }

@@ -64,7 +64,7 @@ static bool add_skeletons(Digest *d, const char *motion, Error *e) {
     if (!folder && errno != EACCES) return error_set(e, ERR_INPUT, "cannot open '%s': %s", path, strerror(errno));
     Digest sum = 0;
     bool good = true;
-    for (struct dirent *entry; folder && good && (entry = readdir(folder));) {
+    for (struct dirent *entry; folder && good && (errno = 0, entry = readdir(folder));) {
         if (!text_ends_in(entry->d_name, ".asf")) continue;
         Digest one = digest_start();
         digest_text(&one, entry->d_name);
@@ -72,6 +72,8 @@ static bool add_skeletons(Digest *d, const char *motion, Error *e) {
         good = digest_file(&one, path, e);
         sum += one;
     }
+    if (folder && good && errno)
+        good = error_set(e, ERR_INPUT, "cannot list the folder '%.*s.': %s", n, motion, strerror(errno));
     if (folder) closedir(folder);
     digest_add(d, &sum, sizeof sum);
     return good;
