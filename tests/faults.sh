@@ -211,7 +211,10 @@ frugal() { # frugal ARGUMENT...: ends with the output in the file or folder `mad
         under memory:$n "$KITSUKE" "$@" || break
         case $code in
         0) cmp wanted.out fault.out && { [ ! -e wanted ] || diff -r wanted made; } || { echo "memory:$n"; return 1; } ;;
-        3 | 4 | 5) [ -s fault.err ] || { echo "memory:$n: no message"; return 1; } ;;
+        3 | 4 | 5)
+            [ -s fault.err ] || { echo "memory:$n: no message"; return 1; }
+            [ "$1" != compare ] || [ ! -s fault.out ] || { echo "memory:$n: a table"; return 1; }
+            ;;
         *) echo "memory:$n: exit $code"; cat fault.err; return 1 ;;
         esac
         [ -z "$(find . -name '*.tmp')" ] || { echo "memory:$n: .tmp"; return 1; }

@@ -30,7 +30,7 @@ static bool is_said(const ComparePair *pair, int k, int ngarments) {
     return k % ngarments > 0 && pair[k - 1].error.kind && strcmp(pair[k - 1].error.text, pair[k].error.text) == 0;
 }
 
-static void compare_pairs(const Wardrobe *w, const Input *input, ComparePair *pair, int count, Error *e) {
+static void compare_pairs(const Wardrobe *w, const Input *input, ComparePair *pair, int count) {
     const Settings *s = w->settings;
     Arena arena = {0};
     ObjWriter obj = {0};
@@ -39,16 +39,15 @@ static void compare_pairs(const Wardrobe *w, const Input *input, ComparePair *pa
     progress_start(&progress, s, count, count);
     for (int k = 0; k < count; k++) {
         ComparePair *p = &pair[k];
-        Notes *notes = ARENA_NEW(&arena, Notes, 1, e);
-        if (!notes) break;
+        Notes notes = {0};
         p->motion = input[k / w->ngarments].name;
         p->garment = w->garment[k % w->ngarments]->name;
         progress_draw(&progress, 0);
         if (stop_requested()) error_set(&p->error, ERR_INTERRUPTED, "interrupted");
         else if (folder_of(s, p, count, folder, &p->error))
-            compare_run(w, k % w->ngarments, &input[k / w->ngarments], folder, &arena, &obj, notes, p);
+            compare_run(w, k % w->ngarments, &input[k / w->ngarments], folder, &arena, &obj, &notes, p);
         progress_hide(&progress);
-        if (!s->quiet && k % w->ngarments == 0) notes_print(notes, input[k / w->ngarments].path, stderr);
+        if (!s->quiet && k % w->ngarments == 0) notes_print(&notes, input[k / w->ngarments].path, stderr);
         if (p->error.kind && p->error.kind != ERR_INTERRUPTED && !is_said(pair, k, w->ngarments))
             error_print(&p->error, stderr);
         progress.done++;
@@ -91,7 +90,7 @@ ErrorKind cmd_compare(const Settings *s, Error *e) {
         int count = motions * w.ngarments, compared = 0;
         ComparePair *pair = ARENA_NEW(&arena, ComparePair, count, e);
         if (pair) {
-            compare_pairs(&w, input, pair, count, e);
+            compare_pairs(&w, input, pair, count);
             for (int k = 0; k < count; k++) compared += pair[k].error.kind == ERR_NONE;
             if (compared) compare_print(pair, count, s, stdout);
             code = judge(pair, count, e);
