@@ -156,6 +156,13 @@ told acceleration >told
 ok 'or is given' verify 0 fast --parts $hips --acceleration --rate 50
 is 'with the same result' "$(told acceleration)" "$(cat told)"
 like 'which is one' "$(cat told)" '^  [0-9.]+ $'
+cp fast/paper-walk/stats.csv stats.csv
+for row in 3 3,0.0; do
+    (sed '$d' stats.csv; printf '%s' "$row") >fast/paper-walk/stats.csv
+    ok "a last row of '$row', broken off" verify 0 fast --parts $hips --acceleration
+    is 'does not count' "$(told acceleration)" "$(cat told)"
+done
+cp stats.csv fast/paper-walk/stats.csv
 ok 'another rate' verify 0 fast --parts $hips --acceleration --rate 30
 ok 'is another result' test "$(told acceleration)" != "$(cat told)"
 ok 'all frames' verify 0 out --parts $hips

@@ -21,7 +21,7 @@ static Reel *add_reel(Finder *f, const char *motion) {
     return &f->reel[f->count++];
 }
 
-/* Frames a second, from the first and the last row of stats.csv: its first columns are frame and
+/* Frames a second, from the first and the last whole row of stats.csv: its first columns are frame and
    time. 0 where there is no such file, or only one frame in it. */
 static double find_rate(Finder *f, const char *folder) {
     Error e = {0};
@@ -29,11 +29,14 @@ static double find_rate(Finder *f, const char *folder) {
     double frame[2] = {0, 0}, time[2] = {0, 0};
     const char *path = listing_path(folder, "stats.csv", f->arena, &e);
     if (!path || !text_read(path, STATS_LIMIT, f->arena, &text, &e)) return 0;
-    const char *end = text.data + text.size;
     int rows = 0;
-    for (const char *line = text.data; line < end; line += strcspn(line, "\n"), line += line < end) {
-        const char *comma = text_number(line, end, &frame[rows > 0]);
-        if (!comma || *comma != ',' || !text_number(comma + 1, end, &time[rows > 0])) continue;
+    for (const char *line = text.data, *end; *line; line = end + (*end == '\n')) {
+        double number, seconds;
+        end = line + strcspn(line, "\n");
+        const char *comma = text_number(line, end, &number);
+        if (!comma || *comma != ',' || !text_number(comma + 1, end, &seconds) || *end != '\n') continue;
+        frame[rows > 0] = number;
+        time[rows > 0] = seconds;
         rows++;
     }
     return rows > 1 && time[1] > time[0] && frame[1] > frame[0] ? (frame[1] - frame[0]) / (time[1] - time[0]) : 0;
