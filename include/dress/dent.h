@@ -19,6 +19,7 @@ typedef struct {
     double *wanted[LIMBS]; /* depth before it was levelled */
     bool *is_out_of_reach; /* per place: would it have to go farther than the cap, or stretch an edge too far? All if
                               nothing is pressed in */
+    bool *kept_out_of_reach; /* dent_keep: the same of another attempt */
     double *spare;         /* per place: extra clearance from own parts (metres), where an edge between the hollow's
                               vertices crossed one */
     bool any_spare;
@@ -35,6 +36,10 @@ void dent_carry(Denter *d, const Field *last, const BodyFrame *body, double dt, 
 
 /* Begins an attempt: nothing was taken back yet. */
 void dent_start(Denter *d);
+
+/* dent_keep remembers what is out of reach, dent_restore returns to it after another attempt. */
+void dent_keep(Denter *d);
+void dent_restore(Denter *d);
 
 /* Begins a round of an attempt. A vertex is taken back at most once in each. */
 void dent_round(Denter *d);

@@ -30,11 +30,12 @@ bool dent_reserve(Denter *d, const Lattice *lattice, Arena *arena, Error *e) {
         if (!d->depth[limb] || !d->held[limb] || !d->wanted[limb]) return false;
     }
     d->is_out_of_reach = ARENA_NEW(arena, bool, lattice->nplaces, e);
+    d->kept_out_of_reach = ARENA_NEW(arena, bool, lattice->nplaces, e);
     d->spare = ARENA_NEW(arena, double, lattice->nplaces, e);
     d->is_back = ARENA_NEW(arena, bool, lattice->nplaces, e);
     d->back = ARENA_NEW(arena, int, lattice->nplaces, e);
     d->loose = ARENA_NEW(arena, int, LOOSE_A_PLACE * lattice->nplaces, e);
-    return d->is_out_of_reach && d->spare && d->is_back && d->back && d->loose &&
+    return d->is_out_of_reach && d->kept_out_of_reach && d->spare && d->is_back && d->back && d->loose &&
            hollow_reserve(&d->hollow, arena, e) && slopes_reserve(&d->slopes, lattice, arena, e);
 }
 
@@ -61,6 +62,10 @@ void dent_start(Denter *d) {
     if (d->any_spare) memset(d->spare, 0, (size_t)d->nplaces * sizeof *d->spare);
     d->any_spare = false;
 }
+
+void dent_keep(Denter *d) { memcpy(d->kept_out_of_reach, d->is_out_of_reach, (size_t)d->nplaces * sizeof(bool)); }
+
+void dent_restore(Denter *d) { memcpy(d->is_out_of_reach, d->kept_out_of_reach, (size_t)d->nplaces * sizeof(bool)); }
 
 void dent_round(Denter *d) {
     for (int k = 0; k < d->nback; k++) d->is_back[d->back[k]] = false;

@@ -44,12 +44,14 @@ static void split_where_bad(Cloth *c) {
 /* Keeps the state of the last attempt; take_back returns to it after another one. */
 static void keep(Solver *s) {
     push_keep(&s->cloth.push, s->cloth.sheet.nvertices);
+    dent_keep(&s->cloth.settler.denter);
     leaves_copy(&s->cloth.leaves, &s->kept);
 }
 
 /* Tests again, so that the tester's lists belong to this state. */
 static void take_back(Solver *s, const BodyFrame *body, FrameStats *stats) {
     push_restore(&s->cloth.push);
+    dent_restore(&s->cloth.settler.denter);
     leaves_copy(&s->kept, &s->cloth.leaves);
     lay_sheet(s);
     attempt_test(&s->cloth, body, stats);
