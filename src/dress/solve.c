@@ -83,9 +83,9 @@ static bool is_better(const Outcome *a, const Outcome *b, double cap) {
 
 /* Is this attempt, after the first, worth making? Yes if something shows, but not so much that there is no room at all.
    FRESH also if nothing shows, but the cloth is still far away since a frame in which something did. */
-static bool is_wanting(const Solver *s, const Outcome *o, int attempt) {
+static bool is_wanting(const Solver *s, const Outcome *o, int attempt, bool is_thrown) {
     bool shows = outcome_shows(o) > 0;
-    if (attempt == FRESH) return shows || (s->is_thrown && is_far(o, s->cloth.push.field.cap));
+    if (attempt == FRESH) return shows || (is_thrown && is_far(o, s->cloth.push.field.cap));
     return shows && !attempt_is_hopeless(&s->cloth, o);
 }
 
@@ -113,10 +113,11 @@ static void go_slowly(Solver *s, const BodyFrame *body, double dt, Outcome *best
 static Wrong push_and_test(Solver *s, const BodyFrame *body, double dt, Tie tie, FrameStats *stats) {
     Cloth *c = &s->cloth;
     double cap = c->push.field.cap;
+    bool is_thrown = s->is_thrown && tie == TIE_GOES_ON;
     prepare(s, CARRIED);
     Outcome best = attempt_push(c, body, stats);
     stats->sweeps = best.push.sweeps;
-    for (int k = FRESH; k < ATTEMPTS && is_wanting(s, &best, k); k++) {
+    for (int k = FRESH; k < ATTEMPTS && is_wanting(s, &best, k, is_thrown); k++) {
         keep(s);
         c->settler.denter.is_off = outcome_shows(&best) > 0;
         prepare(s, k);
@@ -128,7 +129,7 @@ static Wrong push_and_test(Solver *s, const BodyFrame *body, double dt, Tie tie,
     c->settler.denter.is_off = false;
     bool goes_slowly = tie == TIE_GOES_ON && may_go_slowly(s) && outcome_shows(&best) > 0;
     if (goes_slowly) go_slowly(s, body, dt, &best, stats);
-    s->is_thrown = is_far(&best, cap) && (s->is_thrown || outcome_shows(&best) > 0);
+    if (tie != TIE_ASTRAY) s->is_thrown = is_far(&best, cap) && (is_thrown || outcome_shows(&best) > 0);
     stats->capped |= outcome_shows(&best) > 0 || residual_total(&best.wrong.other) > 0 || best.push.capped;
     stats->active = best.push.active;
     stats->pinched = best.push.pinched + attempt_pinched(c, body);
