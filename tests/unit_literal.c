@@ -72,6 +72,21 @@ static void the_leg_pushes_where_it_goes(Scene *s) {
     OK(down.sweeps <= 40 && down.displacement <= 40 * 0.005 + 1e-9, "never beyond the cap");
 }
 
+/* Nothing has a direction in a frame that is astray; behind it the direction is that of the motion without it. */
+static void astray_has_no_direction(Scene *s) {
+    Mesh mesh;
+    Dresser *plain = dress(s, METHOD_PAPER, SPLIT_ADAPTIVE), *other = dress(s, METHOD_PAPER, SPLIT_ADAPTIVE);
+    frame(plain, s, raised(s, 26), TIE_AFRESH, &mesh);
+    frame(other, s, raised(s, 26), TIE_AFRESH, &mesh);
+    FrameStats astray = frame(other, s, raised(s, 60), TIE_ASTRAY, &mesh);
+    FrameStats back = frame(other, s, raised(s, 30), TIE_GOES_ON, &mesh);
+    FrameStats up = frame(plain, s, raised(s, 30), TIE_GOES_ON, &mesh);
+    OK(astray.capped && astray.displacement == 0, "a frame that is astray has no direction");
+    OK(up.displacement > 0 && back.sweeps == up.sweeps && back.displacement == up.displacement &&
+           back.residual_edges == up.residual_edges && back.capped == up.capped,
+       "the next one has that from the last frame in front of it");
+}
+
 /* Every leaf is a piece of its own, on the surface where it did not move. */
 static void the_mesh_is_in_pieces(Scene *s) {
     Mesh mesh;
@@ -139,6 +154,7 @@ int main(void) {
     counts_are_the_papers(s);
     rules_agree(s);
     the_leg_pushes_where_it_goes(s);
+    astray_has_no_direction(s);
     the_mesh_is_in_pieces(s);
     the_global_shape_stays(s);
     plain_tests_find_the_same(s);

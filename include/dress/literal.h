@@ -24,7 +24,7 @@ typedef struct {
     Triangle *facet;   /* of one leaf */
     Vec3 *point;       /* of one leaf; output units, snapped */
     double *side;      /* per vertex of a part: S_a012 */
-    Pose before;       /* of the frame before */
+    Pose before;       /* of the last frame that was not astray */
     bool has_before;
 } Literal;
 
@@ -33,10 +33,9 @@ MUST_CHECK bool literal_reserve(Literal *l, const Lattice *lattice, const Body *
 /* One frame from the global shape on:
    splits the root patches (all pairs by equations (2) to (4), de Casteljau, the stop rule), then
    moves the leaves that are hit along the motion of what hits them, step by step, until nothing
-   does or a cap, and makes the mesh (but for its groups). Where the motion restarts nothing has
-   a direction, and all stays where it is. Fills what *stats has about the classification, the
+   does or a cap, and makes the mesh (but for its groups). In a frame that does not go on from another
+   nothing has a direction, and all stays where it is. Fills what *stats has about the classification, the
    push and the mesh; hits that are left make it capped. */
-void literal_frame(Literal *l, const Patch *root, const BodyFrame *body, bool restart, SplitRule rule,
-                   FrameStats *stats);
+void literal_frame(Literal *l, const Patch *root, const BodyFrame *body, Tie tie, SplitRule rule, FrameStats *stats);
 
 #endif

@@ -143,9 +143,9 @@ static void split_by_rule(Dresser *d, const BodyFrame *body, FrameStats *stats) 
 }
 
 /* Split, move and repeat as the paper says, then the tests that all methods undergo. */
-static void frame_to_the_letter(Dresser *d, const BodyFrame *body, bool restart, Mesh *mesh, FrameStats *stats) {
+static void frame_to_the_letter(Dresser *d, const BodyFrame *body, Tie tie, Mesh *mesh, FrameStats *stats) {
     Literal *l = &d->literal;
-    literal_frame(l, d->root, body, restart, d->options.split, stats);
+    literal_frame(l, d->root, body, tie, d->options.split, stats);
     if (mesh) {
         *mesh = l->mesh;
         set_groups(d, l->first_of_patch, mesh);
@@ -164,7 +164,7 @@ void dresser_frame(Dresser *d, const BodyFrame *body, double dt, Tie tie, Mesh *
     follow_pose(&d->follower, &body->pose, d->root);
     stats->global_s = clock_seconds() - start;
     if (d->options.method == METHOD_PAPER) {
-        frame_to_the_letter(d, body, stats->restarted, mesh, stats);
+        frame_to_the_letter(d, body, tie, mesh, stats);
         return;
     }
     split_by_rule(d, body, stats);

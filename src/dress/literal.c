@@ -209,10 +209,10 @@ static void make_mesh(Literal *l, double unit, FrameStats *stats) {
     stats->triangles = l->mesh.ntriangles;
 }
 
-void literal_frame(Literal *l, const Patch *root, const BodyFrame *body, bool restart, SplitRule rule,
-                   FrameStats *stats) {
+void literal_frame(Literal *l, const Patch *root, const BodyFrame *body, Tie tie, SplitRule rule, FrameStats *stats) {
     double start = clock_seconds();
-    if (restart) l->has_before = false;
+    bool had_before = l->has_before;
+    if (tie != TIE_GOES_ON) l->has_before = false;
     split_roots(l, root, body, rule, stats);
     double classified = clock_seconds();
     stats->classify_s = stats->plain_s = stats->test_s = classified - start;
@@ -222,6 +222,6 @@ void literal_frame(Literal *l, const Patch *root, const BodyFrame *body, bool re
     make_mesh(l, body->unit, stats);
     stats->mesh_s = clock_seconds() - pushed;
     stats->pairs_tested = stats->pairs_all;
-    l->before = body->pose;
-    l->has_before = true;
+    if (tie != TIE_ASTRAY) l->before = body->pose;
+    l->has_before = tie != TIE_ASTRAY || had_before;
 }
