@@ -18,6 +18,9 @@ MUST_CHECK bool morph_reserve(Morph *m, const Lattice *lattice, Arena *arena, Er
    *leaves and *fresh until their vertices are back on the facets. restart: all are on the surface at once. */
 void morph_carry(Morph *m, double dt, bool restart, Leaves *leaves, Leaves *fresh);
 
+/* Both of one lattice. */
+void morph_copy(const Morph *from, Morph *to);
+
 /* Moves vertices of a sheet, whose points are given on the surface, towards the facets of the coarser grid. */
 void morph_points(const Morph *m, const Sheet *sheet, Vec3 *point);
 

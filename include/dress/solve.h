@@ -13,6 +13,7 @@ typedef struct {
     Leaves grid;             /* what is tessellated under a fixed topology */
     Field before;            /* the displacement that this frame began with (tight garments); during frames that are
                                 astray, that of the last one that was not */
+    Morph morph_before;      /* likewise, in such frames */
     bool is_astray;          /* was the last frame? */
     bool is_thrown;          /* was cloth displaced far in a frame after which something showed, and is it still? */
 } Solver;

@@ -47,6 +47,11 @@ void morph_carry(Morph *m, double dt, bool restart, Leaves *leaves, Leaves *fres
         }
 }
 
+void morph_copy(const Morph *from, Morph *to) {
+    for (int level = 0; level < from->lattice->depth; level++)
+        memcpy(to->open[level], from->open[level], (size_t)ncells(from->lattice, level) * sizeof *to->open[level]);
+}
+
 /* Are all vertices of a sheet on the surface? */
 static bool is_open(const Morph *m, const Sheet *sheet) {
     for (int level = 0; level < m->lattice->depth; level++)

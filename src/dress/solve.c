@@ -22,7 +22,7 @@ bool solver_reserve(Solver *s, const Fit *fit, const Lattice *lattice, const Dre
     *s = (Solver){.may_split = options->split == SPLIT_ADAPTIVE, .fixed_topology = options->fixed_topology};
     if (!cloth_reserve(&s->cloth, fit, lattice, arena, e) || !leaves_reserve(&s->fresh, lattice, arena, e) ||
         !leaves_reserve(&s->kept, lattice, arena, e) || !leaves_reserve(&s->grid, lattice, arena, e) ||
-        !field_reserve(&s->before, lattice, arena, e))
+        !field_reserve(&s->before, lattice, arena, e) || !morph_reserve(&s->morph_before, lattice, arena, e))
         return false;
     leaves_fill(&s->grid, lattice->depth);
     s->cloth.push.coarser = fit->garment->loose ? LOOSE : TIGHT;
@@ -138,17 +138,23 @@ static Wrong push_and_test(Solver *s, const BodyFrame *body, double dt, Tie tie,
 }
 
 /* Takes over the displacement of the frame before. Frames that are astray leave nothing behind: the first of them puts
-   the field aside, and the first frame after them goes on from there. */
+   field and morph aside, and the first frame after them goes on from there. */
 static void carry(Solver *s, const BodyFrame *body, double dt, Tie tie) {
     Cloth *c = &s->cloth;
-    if (tie == TIE_ASTRAY && !s->is_astray) field_copy(&c->push.field, &s->before);
-    if (tie == TIE_GOES_ON && s->is_astray) field_copy(&s->before, &c->push.field);
+    if (tie == TIE_ASTRAY && !s->is_astray) {
+        field_copy(&c->push.field, &s->before);
+        morph_copy(&c->morph, &s->morph_before);
+    }
+    if (tie == TIE_GOES_ON && s->is_astray) {
+        field_copy(&s->before, &c->push.field);
+        morph_copy(&s->morph_before, &c->morph);
+    }
     s->is_astray = tie == TIE_ASTRAY;
     dent_carry(&c->settler.denter, &c->push.field, body, dt, tie == TIE_GOES_ON);
     field_carry(&c->push.field, body, dt, tie != TIE_GOES_ON, &c->leaves);
     if (tie == TIE_GOES_ON && may_go_slowly(s)) field_copy(&c->push.field, &s->before);
     Leaves *wanted = s->fixed_topology ? &s->grid : &c->leaves;
-    if (!s->is_astray) morph_carry(&c->morph, dt, tie == TIE_AFRESH, wanted, &s->fresh);
+    morph_carry(&c->morph, dt, tie != TIE_GOES_ON, wanted, &s->fresh);
 }
 
 Wrong solver_frame(Solver *s, const BodyFrame *body, const Patch *root, double dt, Tie tie, bool is_global,
