@@ -96,9 +96,35 @@ static void cloth_is_drawn_along(void) {
     arena_free(&w.of.scene.arena);
 }
 
+/* All of a fine body presses in no direction, so that none of its skin is turned away. */
+static void room_for_all_blocks(void) {
+    static Worn w;
+    Scene *s = &w.of.scene;
+    Arena own = {0};
+    Hollow h;
+    Pose rest = figure_rest_pose();
+    Touch t = {.parts = {[LIMB_OTHER] = 0}};
+    worn_open(&w, "skirt", 5, 1);
+    need(s, body_fit(body_default(), &s->figure, 52, &s->arena, &s->body, &s->error));
+    need(s, body_frame_init(&s->posed, &s->body, 1, &s->arena, &s->error));
+    worn_pose(&w, &rest, 1);
+    need(s, hollow_reserve(&h, &own, &s->error));
+    char *behind = ARENA_NEW(&own, char, 64, &s->error);
+    need(s, behind != NULL);
+    t.parts[LIMB_OTHER] = (1u << s->body.nparts) - 1;
+    hollow_find(&h, &w.cloth.push, &t, LIMB_OTHER);
+    int written = 0;
+    for (int k = 0; k < 64; k++) written += behind[k] != 0;
+    OK(h.npoints > 4096 - HOLLOW_BLOCK && h.nblocks == (h.npoints + HOLLOW_BLOCK - 1) / HOLLOW_BLOCK && written == 0,
+       "%d vertices press, and there is room for their %d blocks", h.npoints, h.nblocks);
+    arena_free(&own);
+    arena_free(&s->arena);
+}
+
 int main(void) {
     directions_turn_slowly();
     presses_its_own_side();
     cloth_is_drawn_along();
+    room_for_all_blocks();
     return tap_done();
 }

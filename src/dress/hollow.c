@@ -25,7 +25,7 @@ static const double BEYOND = 1.4;     /* times the cap: skin that is so much far
 
 bool hollow_reserve(Hollow *h, Arena *arena, Error *e) {
     h->point = ARENA_NEW(arena, HollowPoint, POINTS_MAX, e);
-    h->block = ARENA_NEW(arena, HollowBlock, POINTS_MAX / HOLLOW_BLOCK, e);
+    h->block = ARENA_NEW(arena, HollowBlock, (POINTS_MAX + HOLLOW_BLOCK - 1) / HOLLOW_BLOCK, e);
     return h->point && h->block;
 }
 
