@@ -163,14 +163,15 @@ static void moves_hits_off(void) {
     Wrong w = attempt_test(c, body, &stats);
     int early = 0, off = 0, own = 0;
     double least = INFINITY;
+    bool capped = false;
     for (int k = 0; k < c->tester.nhits; k++) {
         const TesterHit *hit = &c->tester.hit[k];
         if (!escape_is_own(&c->push.escape, body, c->sheet.place[tester_hit_vertex(hit)], hit->part)) continue;
         double before = hit_distance(&p, hit);
-        settle_hit(&c->settler, &c->push, hit);
+        settle_hit(&c->settler, &c->push, hit, &capped);
         early += hit_distance(&p, hit) != before && c->settler.nraised == 0;
         for (int i = 0; i < hit->n; i++) (void)settle_raise(&c->settler, &c->push, hit->v[i], 0.002, 0.002);
-        settle_hit(&c->settler, &c->push, hit);
+        settle_hit(&c->settler, &c->push, hit, &capped);
         double after = hit_distance(&p, hit);
         own++;
         off += after > 0.4 * p.margin;
@@ -182,6 +183,35 @@ static void moves_hits_off(void) {
     arena_free(&p.worn.of.scene.arena);
 }
 
+/* Vertices of hits that have the longest offset already. */
+static void tells_where_hits_stay(void) {
+    static Pushed p;
+    FrameStats stats = {0};
+    push(&p, "trousers", 0.1);
+    Cloth *c = &p.worn.cloth;
+    const BodyFrame *body = &p.worn.of.scene.posed;
+    (void)attempt_test(c, body, &stats);
+    int hits = 0, told = 0;
+    for (int k = 0; k < c->tester.nhits; k++) {
+        const TesterHit *hit = &c->tester.hit[k];
+        Vec3 x = tester_hit_point(hit, c->push.point), n;
+        bool capped = false, again = false;
+        double distance = body_frame_distance(body, hit->part, x, p.margin, &n);
+        if (!escape_is_own(&c->push.escape, body, c->sheet.place[tester_hit_vertex(hit)], hit->part)) continue;
+        for (int i = 0; i < hit->n; i++) {
+            again |= c->push.clearance[hit->v[i]] > p.margin;
+            (void)settle_raise(&c->settler, &c->push, hit->v[i], 0.002, 0.002);
+            field_set_spot(&c->push.field.offset, c->sheet.place[hit->v[i]], vec_scale(n, p.longest));
+        }
+        if (again || distance > 0) continue;
+        settle_hit(&c->settler, &c->push, hit, &capped);
+        hits++;
+        told += capped;
+    }
+    OK(hits > 5 && told == hits, "hits whose vertices may go no farther are told as capped (%d of %d)", told, hits);
+    arena_free(&p.worn.of.scene.arena);
+}
+
 int main(void) {
     gives_the_rest("skirt", 0.1);
     gives_the_rest("trousers", 0.3);
@@ -190,5 +220,6 @@ int main(void) {
     raises();
     goes_back();
     moves_hits_off();
+    tells_where_hits_stay();
     return tap_done();
 }

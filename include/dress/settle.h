@@ -32,8 +32,9 @@ void settle_raised(Settler *s, Push *p, bool *capped);
 bool settle_raise(Settler *s, Push *p, int vertex, double by, double most);
 
 /* An edge or triangle can cross the body although its vertices are outside. Moves the vertices of such a hit by the
-   least that takes the point where it crosses out of the part. Does so only if all of them were raised before. */
-void settle_hit(Settler *s, Push *p, const TesterHit *hit);
+   least that takes the point where it crosses out of the part. Does so only if all of them were raised before.
+   *capped: as above. */
+void settle_hit(Settler *s, Push *p, const TesterHit *hit, bool *capped);
 
 /* Remembers where the raised vertices are, and puts them back there. False if there were too many. */
 void settle_mark(Settler *s, const Push *p);

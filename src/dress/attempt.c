@@ -84,7 +84,7 @@ static bool raise_bad(Cloth *c, int round) {
 static void push_off(Cloth *c, bool all, PushResult *result) {
     settle_mark(&c->settler, &c->push);
     for (int k = 0; k < c->tester.nhits; k++)
-        settle_hit(&c->settler, &c->push, &c->tester.hit[k]);
+        settle_hit(&c->settler, &c->push, &c->tester.hit[k], &result->capped);
     if (all) push_all(c, result);
     else settle_raised(&c->settler, &c->push, &result->capped);
 }

@@ -115,7 +115,7 @@ bool settle_raise(Settler *s, Push *p, int vertex, double by, double most) {
 
 /* Moves the vertices of a hit by the least that takes the point where it crosses as far off the part as it should
    be. */
-static void move_off(Settler *s, Push *p, const TesterHit *hit) {
+static void move_off(Settler *s, Push *p, const TesterHit *hit, bool *capped) {
     const BodyFrame *body = p->body;
     int place = p->sheet->place[tester_hit_vertex(hit)];
     bool is_worn = escape_is_own(&p->escape, body, place, hit->part);
@@ -131,9 +131,8 @@ static void move_off(Settler *s, Push *p, const TesterHit *hit) {
     for (int c = 0; c < hit->n; c++) {
         int v = hit->v[c];
         double by = way * hit->weight[c] / norm2;
-        bool capped = false;
         if (!is_worn) by = escape_free(&p->escape, body, p->sheet->place[v], p->point[v], clearance, n, by);
-        if (by > 0) move(s, p, v, vec_scale(n, by), hit->part, &capped);
+        if (by > 0) move(s, p, v, vec_scale(n, by), hit->part, capped);
     }
 }
 
@@ -146,14 +145,14 @@ static void take_back(Settler *s, Push *p, int vertex) {
 
 /* If the part is an own one, a hollow that an arm presses may be the reason: then the vertices are taken back out of
    it. Moving them off waits until all of them were raised, which is often enough. */
-void settle_hit(Settler *s, Push *p, const TesterHit *hit) {
+void settle_hit(Settler *s, Push *p, const TesterHit *hit, bool *capped) {
     bool is_worn_over = p->field.lattice->fit->collide & part_bit(p->body, hit->part);
     bool is_all_raised = true;
     for (int c = 0; c < hit->n; c++) {
         if (is_worn_over) take_back(s, p, hit->v[c]);
         is_all_raised = is_all_raised && is_raised(p, hit->v[c]);
     }
-    if (is_all_raised) move_off(s, p, hit);
+    if (is_all_raised) move_off(s, p, hit, capped);
 }
 
 void settle_mark(Settler *s, const Push *p) {
