@@ -269,6 +269,23 @@ static void boxes_hold_the_skin(Scene *s) {
     OK(out == 0 && boxes == 0, "skin is where its boxes say (%d vertices are not)", out);
 }
 
+/* The middles of all bones in one place. */
+static void none_is_left_out(Scene *s) {
+    Pose heap = figure_rest_pose();
+    int missing = 0, most = 0;
+    for (int r = 0; r < ROLE_COUNT; r++)
+        heap.bone[r].t = vec_scale(vec_mid(s->figure.start[r], s->figure.end[r]), -1);
+    body_frame_pose(&s->posed, &heap);
+    for (int p = 0; p < s->body.nparts; p++) {
+        int others = 0, n = s->posed.contacts[p].n;
+        for (int q = 0; q < s->body.nparts; q++) others += yield_concerns(s->body.part[p].role, s->body.part[q].role);
+        missing += others - n;
+        most = n > most ? n : most;
+    }
+    OK(most > 12 && missing == 0, "in a heap each part meets all that it may, up to %d (%d are missing)", most,
+       missing);
+}
+
 int main(void) {
     Scene s;
     scene_open(&s, "skirt");
@@ -281,6 +298,7 @@ int main(void) {
     no_jumps(&s);
     folds_flat(&s);
     boxes_hold_the_skin(&s);
+    none_is_left_out(&s);
     arena_free(&s.arena);
     return tap_done();
 }

@@ -19,9 +19,8 @@ typedef struct {
     double bottom;   /* how far from the joint along fold->inwards it begins, metres */
 } Contact;
 
-/* A part gives way to so many others at the most, the first that are found. */
-enum { CONTACTS_MAX = 12 };
-typedef struct { int n; Contact contact[CONTACTS_MAX]; } Contacts;
+/* All others that a part gives way to. */
+typedef struct { int n; Contact contact[BODY_PARTS_MAX - 1]; } Contacts;
 
 /* May the two roles press on each other at all? Parts of the trunk may not, nor neighbours in a limb, except at
    elbow and knee; a head may be bowed to the chest. */

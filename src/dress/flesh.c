@@ -75,9 +75,7 @@ static bool press(BodyFrame *f, int part, const Contact *contact) {
 static void meet(BodyFrame *f, int a, int b) {
     Role of_a = f->body->part[a].role, of_b = f->body->part[b].role;
     Contacts *ca = &f->contacts[a], *cb = &f->contacts[b];
-    if (!yield_concerns(of_a, of_b) || ca->n == CONTACTS_MAX || cb->n == CONTACTS_MAX ||
-        !boxes_near(f->box[a], f->box[b], f->room))
-        return;
+    if (!yield_concerns(of_a, of_b) || !boxes_near(f->box[a], f->box[b], f->room)) return;
     Contact *to_b = &ca->contact[ca->n], *to_a = &cb->contact[cb->n];
     yield_contact(of_a, of_b, figure_scale(f->body->height), to_b, to_a);
     const Fold *fold = folds_between(&f->folds, of_a, of_b);
