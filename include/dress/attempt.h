@@ -50,7 +50,7 @@ bool attempt_is_hopeless(const Cloth *c, const Outcome *o);
 Wrong attempt_test(Cloth *c, const BodyFrame *body, FrameStats *stats);
 
 /* Raises facets that are so flat that the precision of the text would leave nothing of them. The last step of a frame.
-   w: what the last test has found. Returns what is wrong now. */
+   w: what the last test has found. Returns what is wrong now. Marks *stats as capped if some are left. */
 Wrong attempt_raise_flat(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *stats);
 
 /* The number of vertices at which a part from outside shows because there is no room for cloth, or none that it could

@@ -136,10 +136,11 @@ Outcome attempt_rest(Cloth *c, const BodyFrame *body, FrameStats *stats) {
    put a vertex on the side of another facet. So one of its corners is moved by some hundredths of a millimetre. */
 Wrong attempt_raise_flat(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *stats) {
     double start = clock_seconds(), least = FLAT * c->push.field.scale * body->unit;
-    for (int round = 0; round < FLAT_ROUNDS; round++) {
+    for (int round = 0;; round++) {
         int aside[FLAT_MOST], n = flat_find(c->position, c->sheet.triangle, c->sheet.ntriangles, least, round, aside,
                                             c->moved, FLAT_MOST);
-        if (n == 0) break;
+        stats->capped |= n > 0 && round == FLAT_ROUNDS;
+        if (n == 0 || round == FLAT_ROUNDS) break;
         for (int k = 0; k < n; k++) c->moved[k] = mesh_snap_point(c->moved[k]);
         w = tester_again(&c->tester, body, aside, c->moved, n, NULL, w);
         add_pairs(stats, &w);

@@ -130,7 +130,7 @@ static Wrong push_and_test(Solver *s, const BodyFrame *body, double dt, Tie tie,
     bool goes_slowly = tie == TIE_GOES_ON && may_go_slowly(s) && outcome_shows(&best) > 0;
     if (goes_slowly) go_slowly(s, body, dt, &best, stats);
     if (tie != TIE_ASTRAY) s->is_thrown = is_far(&best, cap) && (is_thrown || outcome_shows(&best) > 0);
-    stats->capped |= outcome_shows(&best) > 0 || residual_total(&best.wrong.other) > 0 || best.push.capped;
+    stats->capped |= best.push.capped;
     stats->active = best.push.active;
     stats->pinched = best.push.pinched + attempt_pinched(c, body);
     stats->displacement = best.push.displacement;
@@ -166,5 +166,7 @@ Wrong solver_frame(Solver *s, const BodyFrame *body, const Patch *root, double d
     lay_sheet(s);
     stats->mesh_s = clock_lap(&start);
     Wrong w = is_global ? attempt_rest(&s->cloth, body, stats).wrong : push_and_test(s, body, dt, tie, stats);
-    return attempt_raise_flat(&s->cloth, body, w, stats);
+    w = attempt_raise_flat(&s->cloth, body, w, stats);
+    stats->capped |= !is_global && residual_total(&w.own) + residual_total(&w.other) > 0;
+    return w;
 }
