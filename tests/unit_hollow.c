@@ -68,6 +68,13 @@ static void presses_its_own_side(void) {
     arena_free(&w.of.scene.arena);
 }
 
+static int deepest_of(const Denter *d, const Push *p) {
+    int deepest = 0;
+    for (int v = 0; v < p->sheet->nvertices; v++)
+        if (d->depth[LIMB_LEFT_ARM][v] > d->depth[LIMB_LEFT_ARM][deepest]) deepest = v;
+    return deepest;
+}
+
 /* The deepest vertex is taken back as far as that goes. */
 static void cloth_is_drawn_along(void) {
     static const double LEAST = 0.999; /* as in src/dress/dent.c */
@@ -75,13 +82,12 @@ static void cloth_is_drawn_along(void) {
     press_hand(&w);
     Push *p = &w.cloth.push;
     Denter *d = &w.cloth.settler.denter;
-    int deepest = 0, torn = 0, most = 0;
-    for (int v = 0; v < p->sheet->nvertices; v++)
-        if (d->depth[LIMB_LEFT_ARM][v] > d->depth[LIMB_LEFT_ARM][deepest]) deepest = v;
+    int deepest = deepest_of(d, p), torn = 0, most = 0;
+    bool capped = false;
     double before = vec_len(field_dent(&p->field, p->sheet->place[deepest]));
     for (int round = 0; round < 3; round++) {
         dent_round(d);
-        dent_back(d, p, deepest);
+        dent_back(d, p, deepest, &capped);
         most = d->nloose > most ? d->nloose : most;
         for (int k = 0; k < d->nloose; k++) {
             int n;
@@ -92,7 +98,25 @@ static void cloth_is_drawn_along(void) {
     double after = vec_len(field_dent(&p->field, p->sheet->place[deepest]));
     OK(before > 0.05 && after < before - 0.02, "a vertex is taken back by %.0f of %.0f mm", 1000 * (before - after),
        1000 * before);
-    OK(most > 10 && torn == 0, "up to %d with it, and no edge is left too long (%d)", most, torn);
+    OK(most > 10 && torn == 0 && !capped, "up to %d with it, and no edge is left too long (%d)", most, torn);
+    arena_free(&w.of.scene.arena);
+}
+
+/* As if there were room for as few as that. */
+static void a_cap_is_told(void) {
+    enum { PLACES = 2, FOLLOW = 4 * PLACES };
+    static Worn w;
+    bool capped = false;
+    press_hand(&w);
+    Push *p = &w.cloth.push;
+    Denter *d = &w.cloth.settler.denter;
+    int deepest = deepest_of(d, p);
+    d->nplaces = PLACES;
+    for (int round = 0; round < 3 && !capped; round++) {
+        dent_round(d);
+        dent_back(d, p, deepest, &capped);
+    }
+    OK(capped && d->nloose == FOLLOW, "where more would have to follow than can be listed, that is told");
     arena_free(&w.of.scene.arena);
 }
 
@@ -125,6 +149,7 @@ int main(void) {
     directions_turn_slowly();
     presses_its_own_side();
     cloth_is_drawn_along();
+    a_cap_is_told();
     room_for_all_blocks();
     return tap_done();
 }

@@ -53,7 +53,8 @@ void dent_all(Denter *d, Push *p, bool *capped);
 void dent_add(Denter *d, Push *p, int vertex, int part, Vec3 by, double most, bool *capped);
 
 /* Makes the dent of a vertex shallower, by more each time in an attempt, and keeps it so: an own part shows there.
-   Cloth round it follows, as far as its edges would be stretched too far: it and these vertices are then d->loose. */
-void dent_back(Denter *d, Push *p, int vertex);
+   Cloth round it follows, as far as its edges would be stretched too far: it and these vertices are then d->loose.
+   *capped becomes true if too much would have to follow. */
+void dent_back(Denter *d, Push *p, int vertex, bool *capped);
 
 #endif

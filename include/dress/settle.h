@@ -23,7 +23,7 @@ MUST_CHECK bool settle_reserve(Settler *s, const Lattice *lattice, Arena *arena,
 void settle_start(Settler *s);
 
 /* Moves all vertices that are too near to a part, or those of them that were raised. *capped becomes true if that takes
-   more than a single vertex may be moved. */
+   more than a single vertex may be moved, or more steps. */
 void settle_all(Settler *s, Push *p, bool *capped);
 void settle_raised(Settler *s, Push *p, bool *capped);
 

@@ -179,15 +179,19 @@ static void shorten(Push *p, int vertex, double share) {
 }
 
 /* Cloth round a vertex whose dents were shortened is drawn along, and the cloth round that. */
-static void draw_along(Denter *d, Push *p, int vertex) {
+static void draw_along(Denter *d, Push *p, int vertex, bool *capped) {
     d->loose[0] = vertex;
     d->nloose = 1;
     for (int k = 0; k < d->nloose; k++) {
         int n;
         const int *beside = slopes_beside(&d->slopes, p->sheet, d->loose[k], &n);
-        for (int i = 0; i < n && d->nloose < LOOSE_A_PLACE * d->nplaces; i++) {
+        for (int i = 0; i < n; i++) {
             double share = slopes_keeps(p, beside[i], d->loose[k]);
             if (share > LEAST) continue;
+            if (d->nloose == LOOSE_A_PLACE * d->nplaces) {
+                *capped = true;
+                return;
+            }
             shorten(p, beside[i], share);
             d->is_out_of_reach[p->sheet->place[beside[i]]] = true;
             d->loose[d->nloose++] = beside[i];
@@ -195,7 +199,7 @@ static void draw_along(Denter *d, Push *p, int vertex) {
     }
 }
 
-void dent_back(Denter *d, Push *p, int vertex) {
+void dent_back(Denter *d, Push *p, int vertex, bool *capped) {
     int place = p->sheet->place[vertex];
     double depth = vec_len(field_dent(&p->field, place)), *spare = &d->spare[place];
     d->nloose = 0;
@@ -205,7 +209,7 @@ void dent_back(Denter *d, Push *p, int vertex) {
     d->any_spare = true;
     bool is_out = *spare > MOST_BACK * p->field.scale || step >= depth;
     shorten(p, vertex, is_out ? 0 : 1 - step / depth);
-    draw_along(d, p, vertex);
+    draw_along(d, p, vertex, capped);
     d->back[d->nback++] = place;
     d->is_back[place] = true;
 }

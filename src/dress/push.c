@@ -379,6 +379,7 @@ void push_solve(Push *p, PushResult *result) {
         find_samples(p);
         moved = sweep_all(p, result); /* if less than its reach, no vertex that was far away can have come near */
     }
+    result->capped |= moved >= p->reach;
     tell_near(p);
     if (moved > 0) find_points(p);
 }

@@ -4,6 +4,7 @@
 #include "dress/settle.h"
 
 enum { STEPS_MAX = 4 };
+static const double AT_REST = 0.05; /* share of its clearance: a vertex whose last step was shorter has come to rest */
 static const double RAISE_MAX = 0.015; /* most extra clearance, metres on 1.70 m */
 static const double OFFSET_MAX = 0.03; /* longest offset: more would be a spike; metres on 1.70 m */
 static const double JUST_CLEAR = 0.5;  /* share of PUSH_MARGIN by which a facet that crosses a part is moved off it. It
@@ -75,18 +76,19 @@ static void settle_vertex(Settler *s, Push *p, int vertex, bool *capped) {
     EscapePoint at;
     escape_at(&at, p->sheet->place[vertex], p->point[vertex], p->clearance[vertex]);
     at.near = parts_near(body, &at.point, at.clearance);
-    bool moved = true;
-    for (int step = 0; step < STEPS_MAX && moved; step++) {
-        moved = false;
+    double moved = INFINITY;
+    for (int step = 0; step < STEPS_MAX && moved > 0; step++) {
+        moved = 0;
         for (unsigned left = at.near; left; left &= left - 1) {
             int part = near_first(left);
             Vec3 by;
             if (!step_out(p, &at, part, &by)) continue;
             move(s, p, vertex, by, part, capped);
             body_point_move(&at.point, p->point[vertex]);
-            moved = true;
+            moved = fmax(moved, vec_len(by));
         }
     }
+    *capped |= moved > AT_REST * at.clearance;
 }
 
 void settle_all(Settler *s, Push *p, bool *capped) {
@@ -137,9 +139,9 @@ static void move_off(Settler *s, Push *p, const TesterHit *hit, bool *capped) {
 }
 
 /* Takes the dent of a vertex back. Others that follow it are tested again like raised ones. */
-static void take_back(Settler *s, Push *p, int vertex) {
+static void take_back(Settler *s, Push *p, int vertex, bool *capped) {
     Denter *d = &s->denter;
-    dent_back(d, p, vertex);
+    dent_back(d, p, vertex, capped);
     for (int k = 0; k < d->nloose; k++) list(s, d->loose[k]);
 }
 
@@ -149,7 +151,7 @@ void settle_hit(Settler *s, Push *p, const TesterHit *hit, bool *capped) {
     bool is_worn_over = p->field.lattice->fit->collide & part_bit(p->body, hit->part);
     bool is_all_raised = true;
     for (int c = 0; c < hit->n; c++) {
-        if (is_worn_over) take_back(s, p, hit->v[c]);
+        if (is_worn_over) take_back(s, p, hit->v[c], capped);
         is_all_raised = is_all_raised && is_raised(p, hit->v[c]);
     }
     if (is_all_raised) move_off(s, p, hit, capped);
