@@ -232,8 +232,8 @@ FOR_AVX512 static void all_avx512(const BodyPart *part, const Rigid *to_part, co
 
 void body_distances(const BodyPart *part, Vectors vectors, const Rigid *to_part, const Vec3 *p, int n, double far,
                     double *out, Vec3 *normal) {
-#ifdef VECTORS_ARE_X86
     vectors = vectors_pick(vectors);
+#ifdef VECTORS_ARE_X86
     if (vectors == VECTORS_AVX512) all_avx512(part, to_part, p, n, far, out, normal);
     else if (vectors == VECTORS_AVX2) all_avx2(part, to_part, p, n, far, out, normal);
     else

@@ -101,8 +101,8 @@ FOR_AVX512 static bool avx512_digits(const double *x, double unit, Digits *d) { 
 char *digits_lines(char *out, const char *tag, const double *x, double unit, int columns, Vectors vectors) {
     Digits d;
     FindDigits *find = plain_digits;
-#ifdef VECTORS_ARE_X86
     vectors = vectors_pick(vectors);
+#ifdef VECTORS_ARE_X86
     if (vectors != VECTORS_PLAIN) find = vectors == VECTORS_AVX512 ? avx512_digits : avx2_digits;
 #endif
     return LOWEST_FIRST && find(x, unit, &d) ? put_lines(out, tag, columns, &d) : NULL;

@@ -54,8 +54,8 @@ FOR_AVX512 static void snap_avx512(const double *from, double unit, int n, doubl
 void mesh_snap_points(Vectors vectors, const Vec3 *from, double unit, int n, Vec3 *to) {
     const double *in = &from->x;
     double *out = &to->x;
-#ifdef VECTORS_ARE_X86
     vectors = vectors_pick(vectors);
+#ifdef VECTORS_ARE_X86
     if (vectors == VECTORS_AVX512) snap_avx512(in, unit, 3 * n, out);
     else if (vectors == VECTORS_AVX2) snap_avx2(in, unit, 3 * n, out);
     else

@@ -138,18 +138,27 @@ static bool measure_drop(const GaitPlan *plan, int frame, double *drop, Error *e
     return *drop < LOWEST * plan->body.height || too_far(e);
 }
 
-/* out[i] = a weighted mean (smooth) or the largest of the neighbours in[i - radius..i + radius]. */
-static void spread(const double *in, int n, int radius, bool smooth, double *out) {
+/* The value at i of n, those at the ends going on. */
+static double value_at(const double *in, int n, int i) { return in[i < 0 ? 0 : i >= n ? n - 1 : i]; }
+
+/* out[i] = the largest of the neighbours in[i - radius..i + radius]. */
+static void spread(const double *in, int n, int radius, double *out) {
     for (int i = 0; i < n; i++) {
-        double largest = 0, sum = 0, weights = 0;
+        out[i] = 0;
+        for (int d = -radius; d <= radius; d++) out[i] = fmax(out[i], value_at(in, n, i + d));
+    }
+}
+
+/* out[i] = their mean, weighted. */
+static void smooth(const double *in, int n, int radius, double *out) {
+    for (int i = 0; i < n; i++) {
+        double sum = 0, weights = 0;
         for (int d = -radius; d <= radius; d++) {
-            int j = i + d < 0 ? 0 : i + d >= n ? n - 1 : i + d;
             double w = 1 + cos(PI * d / (radius + 1));
-            largest = fmax(largest, in[j]);
-            sum += w * in[j];
+            sum += w * value_at(in, n, i + d);
             weights += w;
         }
-        out[i] = smooth ? sum / weights : largest;
+        out[i] = sum / weights;
     }
 }
 
@@ -161,8 +170,8 @@ bool gait_walk(const GaitPlan *plan, Arena *arena, GaitWalk *out, Error *e) {
     if (!out->drop || !wanted) return false;
     for (int i = 0; i < out->frames; i++)
         if (!measure_drop(plan, i, out->drop + i, e)) return false;
-    spread(out->drop, out->frames, radius, false, wanted);
-    spread(wanted, out->frames, radius, true, out->drop);
+    spread(out->drop, out->frames, radius, wanted);
+    smooth(wanted, out->frames, radius, out->drop);
     return true;
 }
 
