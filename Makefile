@@ -9,7 +9,8 @@ ifeq ($(origin CXX),default)
 CXX     = $(if $(findstring clang,$(CC)),$(subst clang,clang++,$(CC)),c++)
 endif
 
-WARN   = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wundef -Wwrite-strings
+# A number of things that an enum names is a number: clang 19 and later would have each cast.
+WARN   = -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wundef -Wwrite-strings -Wno-enum-float-conversion
 CWARN  = $(WARN) -Wstrict-prototypes -Wmissing-prototypes -Wvla
 SAN    = -g -DVALIDATE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 FLAGS_release = -O3
@@ -21,7 +22,7 @@ ifeq ($(MODE),)
 $(error BUILD must be release, debug or san, not '$(BUILD)')
 endif
 # Same bytes from every build and compiler: no contraction to FMA, no fast-math, no -march.
-ALL_CFLAGS   = -std=c11 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -fno-math-errno -fno-trapping-math -pthread $(CWARN) $(MODE) $(CFLAGS)
+ALL_CFLAGS   = -std=c11 -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -ffp-contract=off -fno-math-errno -fno-trapping-math -pthread $(CWARN) $(MODE) $(CFLAGS)
 ALL_CXXFLAGS = -std=c++17 -ffp-contract=off -Wall -Wextra $(MODE) $(CXXFLAGS)
 ALL_CPPFLAGS = -iquote include -DKITSUKE_VERSION='"$(VERSION)"' $(CPPFLAGS)
 LIBS   = -ldraco -lm -pthread

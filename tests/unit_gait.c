@@ -354,18 +354,15 @@ static void test_paper(void) {
 
 /* The least distance between the shins, from knee to ankle, in any frame. */
 static double least_between_shins(const Take *t) {
-    enum { STEPS = 8 };
+    const double step = 1.0 / 8;
     int knee[2] = {joint(t, "Left", "Leg"), joint(t, "Right", "Leg")};
     int ankle[2] = {joint(t, "Left", "Foot"), joint(t, "Right", "Foot")};
     double least = INFINITY;
     for (int f = 0; f < t->motion.nframes; f++)
-        for (int k = 0; k < (STEPS + 1) * (STEPS + 1); k++) {
-            double at[2] = {(double)(k / (STEPS + 1)) / STEPS, (double)(k % (STEPS + 1)) / STEPS};
-            Vec3 p[2];
-            for (int side = 0; side < 2; side++)
-                p[side] = vec_lerp(place(t, f, knee[side]).t, place(t, f, ankle[side]).t, at[side]);
-            least = fmin(least, vec_dist(p[0], p[1]));
-        }
+        for (double a = 0; a <= 1; a += step)
+            for (double b = 0; b <= 1; b += step)
+                least = fmin(least, vec_dist(vec_lerp(place(t, f, knee[0]).t, place(t, f, ankle[0]).t, a),
+                                             vec_lerp(place(t, f, knee[1]).t, place(t, f, ankle[1]).t, b)));
     return least;
 }
 

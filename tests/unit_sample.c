@@ -22,10 +22,11 @@ static void spreads_evenly(void) {
         int first = frames < 8 ? 0 : 1, wrong = s.count != (frames - first < 6 ? frames - first : 6);
         int last = s.count > 1 ? frames - 1 : first + (frames - first) / 2;
         wrong += s.frame[s.count - 1] != last || (s.count > 1 && s.frame[0] != first);
-        double least = 1e9, most = 0;
+        int least = given, most = 0;
         for (int i = 1; i < s.count; i++) {
-            least = fmin(least, s.frame[i] - s.frame[i - 1]);
-            most = fmax(most, s.frame[i] - s.frame[i - 1]);
+            int gap = s.frame[i] - s.frame[i - 1];
+            least = gap < least ? gap : least;
+            most = gap > most ? gap : most;
         }
         OK(wrong == 0 && (s.count < 2 || most - least <= 1), "evenly, from frame %d on", first);
         for (int i = 0; i < s.count; i++) {

@@ -43,10 +43,8 @@ static void curves(Outline *o) {
     OK(outline_next(o) && o->is_closed, "a disc is one closed line");
     NEAR(outline_area(o), PI * 150 * 150, 300, "of its area");
     double off = 0;
-    for (int k = 0; k < o->count; k++) {
-        double x = o->point[k].x - 200, y = o->point[k].y - 200;
-        off = fmax(off, fabs(sqrt(x * x + y * y) - 150));
-    }
+    for (int k = 0; k < o->count; k++)
+        off = fmax(off, fabs(hypot(o->point[k].x - 200, o->point[k].y - 200) - 150));
     OK(off < 0.6, "whose points lie on the circle (%.2f pixels off)", off);
     OK(o->count > 20 && o->count < 100, "and are few: %d", o->count);
     OK(!outline_next(o), "and no more");

@@ -37,8 +37,9 @@ static Rigid pose_one(Joint j, const double *row, bool adds) {
 /* Every list of three axes, also with one twice, which some files have. */
 static void test_orders(void) {
     const double row[3] = {20, -75, 140};
+    const ChannelKind axis[] = {CHANNEL_RX, CHANNEL_RY, CHANNEL_RZ};
     for (int code = 0; code < 27; code++) {
-        ChannelKind c[3] = {CHANNEL_RX + code / 9, CHANNEL_RX + code / 3 % 3, CHANNEL_RX + code % 3};
+        ChannelKind c[3] = {axis[code / 9], axis[code / 3 % 3], axis[code % 3]};
         Mat3 wanted = mat_mul(about(c[0], row[0]), mat_mul(about(c[1], row[1]), about(c[2], row[2])));
         Mat3 got = pose_one(joint("a", -1, vec(0, 0, 0), 3, c, 0), row, false).r;
         const char name[] = {"XYZ"[c[0] - CHANNEL_RX], "XYZ"[c[1] - CHANNEL_RX], "XYZ"[c[2] - CHANNEL_RX], 0};

@@ -156,7 +156,7 @@ static void memory_is_bounded(void) {
     arena = (Arena){0};
     bool good = true;
     for (int k = 0; k < 2000; k++) good = ARENA_NEW(&arena, char, k % 20 == 0 ? 700000 : 20000, &e) && good;
-    OK(good && arena.held < 1.1 * (double)arena.used, "little is left over of blocks: %zu of %zu KB",
+    OK(good && (double)arena.held < 1.1 * (double)arena.used, "little is left over of blocks: %zu of %zu KB",
        (arena.held - arena.used) >> 10, arena.held >> 10);
     arena_free(&arena);
 }

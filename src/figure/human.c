@@ -276,7 +276,7 @@ static bool plays_any(const Roles *roles, int joint) {
 }
 
 static Part part_of(Role role) {
-    if (role < ROLE_LEFT_CLAVICLE) return (Part)(PART_PELVIS + role);
+    if (role < ROLE_LEFT_CLAVICLE) return (Part)(PART_PELVIS + (int)role);
     if (role < ROLE_LEFT_THIGH) return PART_CLAVICLE + (role - ROLE_LEFT_CLAVICLE) % (PART_THIGH - PART_CLAVICLE);
     return PART_THIGH + (role - ROLE_LEFT_THIGH) % (PART_COUNT - PART_THIGH);
 }
