@@ -15,6 +15,10 @@
 
 #include <float.h>
 
+#if FLT_EVAL_METHOD != 0
+#error "numbers must be rounded after each operation, or no sign is exact; on 32-bit x86: CFLAGS='-msse2 -mfpmath=sse'"
+#endif
+
 static const double UNIT = DBL_EPSILON / 2; /* largest relative error of one rounding, 2^-53 */
 
 static int sign(double x) { return (x > 0) - (x < 0); }
