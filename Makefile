@@ -164,15 +164,17 @@ $(OUT)/fuzz_%: tests/fuzz/fuzz_%.c $(if $(FUZZ_SECONDS),,tests/fuzz/replay.c) $(
 format:						## clang-format over the .c files (headers are set by hand)
 	clang-format -i src/*/*.c src/*/*.cpp tests/*.c tests/fuzz/*.c
 
-SHARE = $(DESTDIR)$(PREFIX)/share/$(NAME)
+# Quoted, as names may have blanks: uninstall must not take half a name for a folder.
+PROGRAM = '$(DESTDIR)$(PREFIX)/bin/$(NAME)'
+SHARE   = '$(DESTDIR)$(PREFIX)/share/$(NAME)'
 install: $(OUT)/$(NAME)				## program, garments and motions, under $(DESTDIR)$(PREFIX)
-	install -d $(DESTDIR)$(PREFIX)/bin $(SHARE)/garments $(SHARE)/motions
-	install -m 755 $(OUT)/$(NAME) $(DESTDIR)$(PREFIX)/bin/$(NAME)
+	install -d '$(DESTDIR)$(PREFIX)/bin' $(SHARE)/garments $(SHARE)/motions
+	install -m 755 $(OUT)/$(NAME) $(PROGRAM)
 	install -m 644 $(wildcard garments/*) $(SHARE)/garments
 	install -m 644 $(wildcard motions/*) $(SHARE)/motions
 	install -m 644 $(wildcard LICENSE README.md) $(SHARE)
 uninstall:					## undo install
-	rm -f $(DESTDIR)$(PREFIX)/bin/$(NAME)
+	rm -f $(PROGRAM)
 	rm -rf $(SHARE)
 dist:						## the committed tree as build/kitsuke-VERSION.tar.gz
 	@mkdir -p build

@@ -12,12 +12,13 @@ ok 'a build that is none of the three is refused' must_fail 2 run_make BUILD=fas
 like 'by name' "$(cat err)" "BUILD must be release, debug or san, not 'fast'"
 
 if [ "$KITSUKE" = "$root/build/$KITSUKE_BUILD/kitsuke" ]; then
-    ok 'make install' run_make install DESTDIR="$scratch/stage" PREFIX=/opt/k
-    is 'puts the program there' "$(stage/opt/k/bin/kitsuke --version)" "$("$KITSUKE" --version)"
-    ok 'with the garments' cmp stage/opt/k/share/kitsuke/garments/skirt.garment "$root/garments/skirt.garment"
-    ok 'and the walk' cmp stage/opt/k/share/kitsuke/motions/paper-walk.bvh "$root/motions/paper-walk.bvh"
-    ok 'make uninstall' run_make uninstall DESTDIR="$scratch/stage" PREFIX=/opt/k
-    is 'leaves no file' "$(find stage -type f)" ''
+    ok 'make install, where names have blanks' run_make install DESTDIR="$scratch/a stage" PREFIX='/my opt'
+    there="$scratch/a stage/my opt" share="$scratch/a stage/my opt/share/kitsuke"
+    is 'puts the program there' "$("$there/bin/kitsuke" --version)" "$("$KITSUKE" --version)"
+    ok 'with the garments' cmp "$share/garments/skirt.garment" "$root/garments/skirt.garment"
+    ok 'and the walk' cmp "$share/motions/paper-walk.bvh" "$root/motions/paper-walk.bvh"
+    ok 'make uninstall' run_make uninstall DESTDIR="$scratch/a stage" PREFIX='/my opt'
+    is 'leaves no file' "$(find 'a stage' -type f)" ''
 else
     skip 'make install' "not the build of this folder: $KITSUKE"
 fi
