@@ -43,7 +43,8 @@ manager() {
 package() {
     case $1:$2 in
     apt-get:cxx) echo g++ ;;      apt-get:draco) echo libdraco-dev ;; apt-get:prove) echo perl ;;
-    apt-get:draco_decoder) echo draco ;; apt-get:*-linux-gnu-gcc) echo "gcc-${2%-gcc}" ;;
+    apt-get:draco_decoder) echo draco ;;
+    apt-get:aarch64-linux-gnu-gcc) echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross ;;
     apt-get:sbatch) echo slurm-client ;; apt-get:munged) echo munge ;;
     dnf:cxx) echo gcc-c++ ;;      dnf:draco) echo draco-devel ;;      dnf:prove) echo perl-Test-Harness ;;
     pacman:cxx) echo gcc ;;       pacman:draco) echo draco ;;         pacman:prove) echo perl ;;
