@@ -1,4 +1,4 @@
-/* The last step of a frame: facets that are too flat to be written. */
+/* What is left of an attempt: facets that are too flat to be written, and places that have no room for cloth. */
 #include "worn.h"
 
 #include <string.h>
@@ -82,8 +82,32 @@ static void too_many_are_told(void) {
     arena_free(&w.of.scene.arena);
 }
 
+/* A leg swings into the other one. Where cloth between them shows them, that is for want of room. */
+static void legs_leave_no_room(void) {
+    enum { STEPS = 40 };
+    Scene s;
+    scene_open(&s, "trousers");
+    Dresser *push = scene_dresser(&s, (DressOptions){.depth = 1});
+    int shown = 0, told = 0, told_of_nothing = 0;
+    for (int k = 0; k < STEPS; k++) {
+        Pose pose = figure_rest_pose();
+        Mesh mesh;
+        scene_turn(&s, &pose, ROLE_LEFT_THIGH, ROLE_LEFT_TOE, mat_axis_angle(vec(0, 0, 1), -0.5 * k * PI / 180));
+        FrameStats stats = scene_frame(&s, push, &pose, 0, TIE_AFRESH, &mesh);
+        bool shows = stats.residual_edges + stats.residual_cloth + stats.inside > 0;
+        shown += shows;
+        told += shows && stats.pinched > 0;
+        told_of_nothing += !shows && stats.pinched > 0;
+    }
+    OK(shown > 0 && shown < STEPS && told == shown, "legs show in %d of %d poses, %d of which say so", shown, STEPS,
+       told);
+    OK(told_of_nothing == 0, "and none in which they do not (%d)", told_of_nothing);
+    arena_free(&s.arena);
+}
+
 int main(void) {
     flat_facets_are_raised();
     too_many_are_told();
+    legs_leave_no_room();
     return tap_done();
 }

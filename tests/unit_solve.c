@@ -23,8 +23,8 @@ static Wrong solve(Dressed *d, FrameStats *stats) {
     return solver_frame(&d->solver, &d->worn.of.scene.posed, d->worn.of.root, 1 / 30.0, TIE_AFRESH, false, stats);
 }
 
-/* The first attempt of the same frame. */
-static Outcome attempt(Dressed *d) {
+/* The first attempt of the same frame, and how many vertices it leaves pinched. */
+static Outcome attempt(Dressed *d, int *pinched) {
     FrameStats stats = {0};
     Cloth *c = &d->worn.cloth;
     Leaves fresh = d->worn.of.leaves;
@@ -32,7 +32,7 @@ static Outcome attempt(Dressed *d) {
     c->push.coarser = d->solver.cloth.push.coarser;
     morph_carry(&c->morph, 0, true, &c->leaves, &fresh);
     Outcome out = attempt_push(c, &d->worn.of.scene.posed, &stats);
-    out.push.pinched += attempt_pinched(c, &d->worn.of.scene.posed);
+    *pinched = attempt_pinched(c, &d->worn.of.scene.posed);
     return out;
 }
 
@@ -48,12 +48,13 @@ static void rejected_attempts(void) {
         scene_bend(&d.worn.of.scene, &pose, ROLE_LEFT_UPPER_ARM, ROLE_LEFT_HAND, 2 * k - 20);
         worn_pose(&d.worn, &pose, 1);
         Wrong left = solve(&d, &stats);
-        Outcome first = attempt(&d);
+        int pinched;
+        Outcome first = attempt(&d, &pinched);
         bool is_first = residual_total(&left.own) == residual_total(&first.wrong.own) &&
                         stats.displacement == first.push.displacement;
         if (!is_first || residual_total(&left.own) == 0 || residual_total(&left.other) == 0) continue;
         kept++;
-        wrong += stats.pinched != first.push.pinched;
+        wrong += stats.pinched != pinched;
     }
     OK(kept > 0 && wrong == 0, "in %d poses the first attempt is kept, with its pinched vertices (not in %d)", kept,
        wrong);

@@ -53,8 +53,8 @@ Wrong attempt_test(Cloth *c, const BodyFrame *body, FrameStats *stats);
    w: what the last test has found. Returns what is wrong now. Marks *stats as capped if some are left. */
 Wrong attempt_raise_flat(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *stats);
 
-/* The number of vertices at which a part from outside shows because there is no room for cloth, or none that it could
-   reach. */
+/* The number of vertices at which the last test found something that shows because there is no room for cloth between
+   two parts, or none that it could reach, and of those inside a part that the garment is worn over. */
 int attempt_pinched(Cloth *c, const BodyFrame *body);
 
 #endif

@@ -61,7 +61,7 @@ typedef struct {
 } Push;
 
 typedef struct {
-    int sweeps, active, pinched;      /* as in FrameStats */
+    int sweeps, active;               /* as in FrameStats */
     double displacement;              /* largest move from the global shape, metres */
     bool capped;
 } PushResult;
@@ -82,7 +82,7 @@ void push_vertex(Push *p, int vertex, Vec3 by, bool *capped);
 /* Instead of push_solve: puts the vertices where the field has them. */
 void push_rest(Push *p);
 
-/* Fills active, pinched and displacement of *result. */
+/* Fills active and displacement of *result. */
 void push_measure(const Push *p, PushResult *result);
 
 /* Is a vertex known to be outside of all parts? */

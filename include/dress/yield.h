@@ -26,6 +26,10 @@ typedef struct { int n; Contact contact[BODY_PARTS_MAX - 1]; } Contacts;
    elbow and knee; a head may be bowed to the chest. */
 bool yield_concerns(Role a, Role b);
 
+/* Do two parts meet at a joint of the body? On its outside they are one surface, and press only where they fold against
+   each other. */
+bool yield_share_joint(Role a, Role b);
+
 /* The two sides of a contact of roles a and b on a body of `scale` x 1.70 m. */
 void yield_contact(Role a, Role b, double scale, Contact *of_a, Contact *of_b);
 

@@ -149,40 +149,58 @@ Wrong attempt_raise_flat(Cloth *c, const BodyFrame *body, Wrong w, FrameStats *s
     return w;
 }
 
-/* Is there less than `needed` metres of room at a point between a part from outside and one of the parts `worn` (bits
-   1 << role)? Only parts that may press on each other count. */
-static bool has_no_room(const BodyFrame *body, unsigned worn, int part, Vec3 at, double needed) {
-    BodyPoint x;
-    body_point_move(&x, at);
-    double left = needed - body_point_unpressed(body, part, &x, needed);
-    for (int k = 0; k < body->body->nparts; k++)
-        if (worn & part_bit(body, k) && yield_concerns(body->body->part[part].role, body->body->part[k].role) &&
-            body_point_unpressed(body, k, &x, left) < left)
-            return true;
+/* Is there less than `needed` metres of room at a point between a part and one of the parts `others` (bits 1 << role)?
+   Only parts that may press on each other count; where they meet at a joint, only if they face each other. */
+static bool has_no_room(const BodyFrame *body, unsigned others, int part, Vec3 at, double needed) {
+    static const double FACING = 0.2; /* cosine between their normals */
+    double distance, other;
+    Vec3 normal, away;
+    Role role = body->body->part[part].role;
+    body_frame_unpressed_many(body, part, &at, 1, needed, &distance, &normal);
+    for (int k = 0; k < body->body->nparts && distance < needed; k++) {
+        Role of = body->body->part[k].role;
+        if (!(others & part_bit(body, k)) || !yield_concerns(role, of)) continue;
+        body_frame_unpressed_many(body, k, &at, 1, needed - distance, &other, &away);
+        if (other < needed - distance && (!yield_share_joint(role, of) || vec_dot(normal, away) < FACING)) return true;
+    }
     return false;
 }
 
+/* Is cloth that shows a part at a point (output units) near a vertex there for want of room? */
+static bool is_tight(const Cloth *c, const BodyFrame *body, int part, int vertex, Vec3 at) {
+    bool is_own = c->fit->collide & part_bit(body, part);
+    unsigned others = is_own ? c->fit->collide : c->push.lattice->collide[c->sheet.place[vertex]];
+    return has_no_room(body, others, part, vec_scale(at, 1 / body->unit), 2 * PUSH_MARGIN * c->push.field.scale);
+}
+
 /* Would cloth have to go beyond its cap there, or be stretched too far? */
-static bool is_out_of_reach(const Cloth *c, const TesterHit *hit) {
-    bool any = false;
-    for (int k = 0; k < hit->n; k++) any |= c->settler.denter.is_out_of_reach[c->sheet.place[hit->v[k]]];
-    return any;
+static bool is_out_of_reach(const Cloth *c, int vertex) {
+    return c->settler.denter.is_out_of_reach[c->sheet.place[vertex]];
+}
+
+static bool is_hit_pinched(const Cloth *c, const BodyFrame *body, const TesterHit *hit) {
+    bool is_limb = !(c->fit->collide & part_bit(body, hit->part));
+    for (int k = 0; is_limb && k < hit->n; k++)
+        if (is_out_of_reach(c, hit->v[k])) return true;
+    return is_tight(c, body, hit->part, tester_hit_vertex(hit), tester_hit_point(hit, c->position));
+}
+
+/* Is a vertex inside a part that it was pushed out of in vain, or inside a limb that leaves it no room? */
+static bool is_sunk_pinched(const Cloth *c, const BodyFrame *body, int vertex) {
+    for (unsigned left = c->tester.sunk[vertex].parts; left; left &= left - 1) {
+        int part = near_first(left);
+        bool is_own = c->fit->collide & part_bit(body, part);
+        if (is_own || is_out_of_reach(c, vertex) || is_tight(c, body, part, vertex, c->position[vertex])) return true;
+    }
+    return false;
 }
 
 int attempt_pinched(Cloth *c, const BodyFrame *body) {
     int pinched = 0;
-    bool *is_counted = c->flag;
-    for (int v = 0; v < c->sheet.nvertices; v++) is_counted[v] = false;
-    for (int k = 0; k < c->tester.nhits; k++) {
-        const TesterHit *hit = &c->tester.hit[k];
-        int v = tester_hit_vertex(hit);
-        if (c->fit->collide & part_bit(body, hit->part)) continue;
-        Vec3 x = vec_scale(tester_hit_point(hit, c->position), 1 / body->unit);
-        unsigned worn = c->push.lattice->collide[c->sheet.place[v]];
-        bool is_tight = has_no_room(body, worn, hit->part, x, 2 * PUSH_MARGIN * c->push.field.scale);
-        if (is_counted[v] || !(is_tight || is_out_of_reach(c, hit))) continue;
-        is_counted[v] = true;
-        pinched++;
-    }
+    bool *is_pinched = c->flag;
+    for (int v = 0; v < c->sheet.nvertices; v++) is_pinched[v] = is_sunk_pinched(c, body, v);
+    for (int k = 0; k < c->tester.nhits; k++)
+        if (is_hit_pinched(c, body, &c->tester.hit[k])) is_pinched[tester_hit_vertex(&c->tester.hit[k])] = true;
+    for (int v = 0; v < c->sheet.nvertices; v++) pinched += is_pinched[v];
     return pinched;
 }

@@ -402,15 +402,9 @@ void push_restore(Push *p) {
 }
 
 void push_measure(const Push *p, PushResult *result) {
-    result->active = result->pinched = 0;
+    result->active = 0;
     result->displacement = 0;
     for (int k = 0; k < p->field.start[LATTICE_LEVELS]; k++) result->active += !field_is_zero(p->field.displacement[k]);
     for (int v = 0; v < p->sheet->nvertices; v++)
         result->displacement = fmax(result->displacement, vec_dist(p->point[v], p->global[v]));
-    for (int k = 0; k < p->nsamples; k++) {
-        const PushSample *s = &p->sample[k];
-        unsigned parts = movers(p, p->sheet->place[s->vertex]);
-        bool pushed = s->budget >= 0;
-        result->pinched += pushed && body_frame_inside(p->body, parts, p->point[s->vertex]);
-    }
 }

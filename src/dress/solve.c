@@ -105,7 +105,6 @@ static void go_slowly(Solver *s, const BodyFrame *body, double dt, Outcome *best
         take_back(s, body, stats);
         return;
     }
-    slow.push.pinched = best->push.pinched;
     slow.push.capped = best->push.capped;
     *best = slow;
 }
@@ -132,7 +131,7 @@ static Wrong push_and_test(Solver *s, const BodyFrame *body, double dt, Tie tie,
     if (tie != TIE_ASTRAY) s->is_thrown = is_far(&best, cap) && (is_thrown || outcome_shows(&best) > 0);
     stats->capped |= best.push.capped;
     stats->active = best.push.active;
-    stats->pinched = best.push.pinched + attempt_pinched(c, body);
+    stats->pinched = attempt_pinched(c, body);
     stats->displacement = best.push.displacement;
     return best.wrong;
 }

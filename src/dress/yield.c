@@ -57,10 +57,8 @@ static bool are_legs(Role a, Role b) {
     return role_limb(a) != role_limb(b) && role_limb(a) >= leg && role_limb(b) >= leg;
 }
 
-/* Do the parts meet at a joint of the body? On its outside they are one surface, and press only where they fold against
-   each other. */
-static bool share_joint(Role a, Role b) {
-    if (a > b) return share_joint(b, a);
+bool yield_share_joint(Role a, Role b) {
+    if (a > b) return yield_share_joint(b, a);
     if (role_limb(a) == role_limb(b)) return b - a == 1;
     bool is_leg = role_limb(b) == role_limb(ROLE_LEFT_THIGH) || role_limb(b) == role_limb(ROLE_RIGHT_THIGH);
     return is_upper(b) && a == (is_leg ? ROLE_PELVIS : ROLE_CHEST);
@@ -69,7 +67,7 @@ static bool share_joint(Role a, Role b) {
 void yield_contact(Role a, Role b, double scale, Contact *of_a, Contact *of_b) {
     bool legs = are_legs(a, b);
     double soft_a = legs ? softness_of_legs(a) : softness(a), soft_b = legs ? softness_of_legs(b) : softness(b);
-    bool joined = share_joint(a, b);
+    bool joined = yield_share_joint(a, b);
     double share = soft_a / (soft_a + soft_b);
     *of_a = (Contact){.share = share, .soft = soft_a * scale, .joined = joined};
     *of_b = (Contact){.share = 1 - share, .soft = soft_b * scale, .joined = joined};
