@@ -79,10 +79,9 @@ static unsigned with_next_bones(unsigned collide) {
     return collide | next;
 }
 
-/* Colliders and pins of the places. A place that patches share is worn over the parts that all of them are worn
-   over: at a crotch, where the two legs touch, it cannot keep out of either. If they have no part in common, it is
-   worn over the parts of all. */
-static void mark_places(Lattice *l) {
+/* A place that patches share is worn over the parts that all of them are worn over: at a crotch, where the two legs
+   touch, it cannot keep out of either. If they have no part in common, it is worn over the parts of all. */
+static void mark_colliders(Lattice *l) {
     for (int place = 0; place < l->nplaces; place++) l->collide[place] = ~0u;
     for (int p = 0; p < l->fit->npatches; p++)
         for (int i = 0; i <= l->side; i++)
@@ -96,14 +95,15 @@ static void mark_places(Lattice *l) {
             }
     for (int place = 0; place < l->nplaces; place++)
         l->collide[place] = with_next_bones(l->collide[place] & ~UNSHARED);
-    for (int p = 0; p < l->fit->npatches; p++) {
-        const FitPatch *patch = &l->fit->patch[p];
+}
+
+static void mark_pins(Lattice *l) {
+    for (int p = 0; p < l->fit->npatches; p++)
         for (int s = 0; s < 4; s++)
-            for (int k = 0, i, j; patch->pinned >> s & 1 && k <= l->side; k++) {
+            for (int k = 0, i, j; l->fit->patch[p].pinned >> s & 1 && k <= l->side; k++) {
                 side_place(l, (Side)s, k, &i, &j);
                 l->pinned[*slot(l, p, i, j)] = true;
             }
-    }
 }
 
 /* Cells of a level that touch vertex (a, b) of a patch: up to four. */
@@ -187,7 +187,8 @@ bool lattice_build(const Fit *fit, int detail, int depth, Arena *arena, Lattice 
         !scratch)
         return false;
     number_places(out, scratch);
-    mark_places(out);
+    mark_colliders(out);
+    mark_pins(out);
     for (int level = 0; level <= depth; level++)
         if (!build_level(out, level, scratch, arena, e)) return false;
     for (int i = 0; i < n; i++) bezier_basis((double)i / side, out->basis[i], out->basis_slope[i]);
