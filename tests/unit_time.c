@@ -3,6 +3,7 @@
    The topology is fixed, which keeps the points the same. */
 #include <string.h>
 
+#include "base/sort.h"
 #include "scene.h"
 
 enum { FIXED_DETAIL = 6 };
@@ -16,11 +17,6 @@ static Pose lifted(const Scene *s, double degrees) {
 
 static Dresser *open_dresser(Scene *s, Method method) {
     return scene_dresser(s, (DressOptions){.method = method, .fixed_topology = true, .detail = FIXED_DETAIL});
-}
-
-static int compare_doubles(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 /* Positions of the last three frames, and the second differences in all of them. */
@@ -54,7 +50,7 @@ static void trace_add(Trace *t, const Mesh *mesh) {
 
 /* The second difference that 99 in 100 do not exceed, millimetres. */
 static double trace_most(Trace *t) {
-    qsort(t->change, (size_t)t->nchanges, sizeof *t->change, compare_doubles);
+    sort_numbers(t->change, t->nchanges);
     return 1000 * t->change[(int)(0.99 * (t->nchanges - 1))];
 }
 

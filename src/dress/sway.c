@@ -4,8 +4,9 @@
    all frames, tells about where it has gone. */
 #include "dress/sway.h"
 
-#include <stdlib.h>
 #include <string.h>
+
+#include "base/sort.h"
 
 static bool build_tree(const Mesh *m, Arena *arena, BoxTree *out, Error *e) {
     return boxtree_build(out, m->position, m->triangle, NULL, m->ntriangles, arena, e);
@@ -24,14 +25,9 @@ static bool same_triangles(const Mesh *a, const Mesh *b) {
 
 static double second_difference(Vec3 a, Vec3 b, Vec3 c) { return vec_len(vec_mad(vec_add(a, c), b, -2)); }
 
-static int by_size(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The smallest that at least 99 in 100 do not exceed. */
 static double percentile(double *x, int n) {
-    qsort(x, (size_t)n, sizeof *x, by_size);
+    sort_numbers(x, n);
     return n ? x[(99 * (long)n + 99) / 100 - 1] : 0;
 }
 

@@ -3,9 +3,9 @@
    (neck, head, feet) is the reference adult's, scaled. */
 #include "figure/measure.h"
 
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/sort.h"
 #include "figure/upright.h"
 
 /* Metres. hips and shoulders: distance between the joints; torso: from hip line to shoulder line; ankle: its height
@@ -65,18 +65,13 @@ Figure figure_reference(void) {
 
 /* --- lengths --- */
 
-static int compare(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Distance between two joints in most frames; 0 where one is missing. */
 static double median_distance(const Sample *s, int a, int b) {
     double d[SAMPLE_FRAMES_MAX];
     int n = s->count;
     if (a < 0 || b < 0) return 0;
     for (int f = 0; f < n; f++) d[f] = vec_dist(sample_point(s, f, a), sample_point(s, f, b));
-    qsort(d, (size_t)n, sizeof d[0], compare);
+    sort_numbers(d, n);
     return d[(n - 1) / 2];
 }
 
@@ -99,7 +94,7 @@ static double torso_length(const Sample *s, const Rest *rest, const Roles *r) {
     for (int f = 0; f < s->count; f++)
         d[f] = vec_dist(sample_middle(s, f, j[ROLE_LEFT_THIGH], j[ROLE_RIGHT_THIGH]),
                         sample_middle(s, f, j[ROLE_LEFT_UPPER_ARM], j[ROLE_RIGHT_UPPER_ARM]));
-    qsort(d, (size_t)s->count, sizeof d[0], compare);
+    sort_numbers(d, s->count);
     double moving = d[(int)(0.75 * (s->count - 1))];
     if (!rest->human) return moving;
     Vec3 hips = vec_mid(rest_place(rest, j[ROLE_LEFT_THIGH]), rest_place(rest, j[ROLE_RIGHT_THIGH]));

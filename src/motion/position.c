@@ -9,9 +9,9 @@
 
    Do they tell the pose alone? In files of bare points, as pose estimators write them, no joint but a root turns in any
    frame. Where such files leave OFFSETs zero, the first frame has to stand for them. */
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/sort.h"
 #include "motion/source.h"
 
 enum { SAMPLES_MAX = 64, WITNESSES_MAX = 256 };
@@ -82,11 +82,6 @@ void positions_add(Positions *p, int frame, const double *row) {
     p->nsamples++;
 }
 
-static int ascending(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 bool positions_are_deltas(Positions *p) {
     static const double SPREAD_LEAST = 0.05; /* of the OFFSET's length: values that do not vary at all */
     static const double FAR = 10, BETTER = 2; /* most that a witness counts; how much better adding must fit */
@@ -94,7 +89,7 @@ bool positions_are_deltas(Positions *p) {
     double replace[2] = {0, 0}, add[2] = {0, 0};
     for (int i = 0; i < p->nwitnesses && p->nsamples > 0; i++) {
         Witness *w = &p->witness[i];
-        qsort(w->value, (size_t)p->nsamples, sizeof *w->value, ascending);
+        sort_numbers(w->value, p->nsamples);
         double median = w->value[p->nsamples / 2];
         double spread = w->value[p->nsamples * 9 / 10] - w->value[p->nsamples / 10] + SPREAD_LEAST * w->size;
         replace[w->root] += fmin(fabs(median - w->offset) / spread, FAR);

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/sort.h"
 
 enum { REPEATS_LEAST = 3, REPEATS = 11, REPEATS_MAX = 201, ROWS_MAX = 128, NAME_MAX_LENGTH = 80 };
 /* Seconds: what takes less is done more than once within one measurement; measurements are repeated
@@ -33,11 +34,6 @@ void bench_need(bool good, const Error *e) {
 
 const char *bench_folder(const Bench *b) { return b->folder; }
 
-static int by_size(const void *a, const void *b) {
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
-
 static double seconds_of(void (*run)(void *context), void *context, int times) {
     double start = clock_seconds();
     for (int k = 0; k < times; k++) run(context);
@@ -58,7 +54,7 @@ Timing bench_time_after(void (*before)(void *context), void (*run)(void *context
         before(context);
         seconds[n++] = seconds_of(run, context, times);
     }
-    qsort(seconds, (size_t)n, sizeof seconds[0], by_size);
+    sort_numbers(seconds, n);
     return (Timing){seconds[0], seconds[n / 2]};
 }
 
