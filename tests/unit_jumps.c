@@ -29,7 +29,7 @@ int main(void) {
         add_places(&first, 10, cut);
         add_places(&rest, cut + 1, 69);
         jumps_append(&first, &rest);
-        wrong += !tells(&first) || memcmp(&first.jump[JUMPS_KEPT], &whole.jump[JUMPS_KEPT], sizeof whole.jump[0]) != 0;
+        wrong += !tells(&first) || first.jump[JUMPS_KEPT].first != 60 || first.jump[JUMPS_KEPT].last != 62;
     }
     OK(wrong == 0, "wherever the motion is cut (wrong at %d cuts)", wrong);
     Jumps kinds = {0};
