@@ -27,6 +27,11 @@ static inline bool tap_ok(bool good, const char *file, int line, const char *fmt
 #define NEAR(value, wanted, tolerance, what) \
     tap_ok(fabs((value) - (wanted)) <= (tolerance), __FILE__, __LINE__, "%s (%.12g, wanted %.12g)", what, \
            (double)(value), (double)(wanted))
+/* The larger, or smaller, of what was found before and x. Unlike fmax and fmin they keep a number that is none, so that
+   no bound on what was found holds. */
+static inline double max_of(double before, double x) { return isnan(before) || x <= before ? before : x; }
+static inline double min_of(double before, double x) { return isnan(before) || x >= before ? before : x; }
+
 #define SKIP(what, why) printf("ok %d - %s # SKIP %s\n", ++tap_count, what, why)
 
 /* Prints the plan; return it from main. */

@@ -3,6 +3,7 @@
 #define TESTS_TURNS_H
 
 #include "rig.h"
+#include "tap.h"
 
 static const double DEGREE = PI / 180;
 
@@ -33,7 +34,7 @@ static inline double foot_difference(Rig *a, Rig *b) {
             const Figure *f = &a->figure, *g = &b->figure;
             Vec3 u = mat_apply(rig_pose(a, frame).bone[foot].r, vec_sub(f->end[foot], f->start[foot]));
             Vec3 v = mat_apply(rig_pose(b, frame).bone[foot].r, vec_sub(g->end[foot], g->start[foot]));
-            most = fmax(most, angle(u, v));
+            most = max_of(most, angle(u, v));
         }
     return most;
 }
@@ -42,7 +43,7 @@ static inline double turn_difference(Rig *a, Rig *b, Role role) {
     double most = 0;
     for (int frame = 0; frame < a->motion.nframes; frame++) {
         Pose p = rig_pose(a, frame), q = rig_pose(b, frame);
-        most = fmax(most, turned(p.bone[role].r, q.bone[role].r));
+        most = max_of(most, turned(p.bone[role].r, q.bone[role].r));
     }
     return most;
 }

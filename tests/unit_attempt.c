@@ -52,7 +52,7 @@ static void flat_facets_are_raised(void) {
     memcpy(flat, c->position, (size_t)c->sheet.nvertices * sizeof *flat);
     Wrong after = attempt_raise_flat(c, body, before, &stats);
     double farthest = 0;
-    for (int v = 0; v < c->sheet.nvertices; v++) farthest = fmax(farthest, vec_dist(flat[v], c->position[v]));
+    for (int v = 0; v < c->sheet.nvertices; v++) farthest = max_of(farthest, vec_dist(flat[v], c->position[v]));
     for (int v = 0; v < c->sheet.nvertices; v++) moved += vec_dist(flat[v], c->position[v]) > 0;
     int left = count_flat(c, least);
     OK(was_flat >= c->sheet.ntriangles / EVERY - 1 && left == 0 && !stats.capped, "of %d flat facets %d are left",

@@ -22,9 +22,9 @@ static void split_keeps_the_surface(void) {
             double u = dice_unit(), w = dice_unit(), u0 = 0.5 * (k / 2), w0 = 0.5 * (k % 2);
             Vec3 whole = bezier_point(&patch, u0 + 0.5 * u, w0 + 0.5 * w, NULL, NULL);
             Patch part = bezier_part(&patch, u0, u0 + 0.5, w0, w0 + 0.5);
-            worst = fmax(worst, vec_dist(whole, bezier_point(&child[k], u, w, NULL, NULL)));
+            worst = max_of(worst, vec_dist(whole, bezier_point(&child[k], u, w, NULL, NULL)));
             for (int c = 0; c < 16; c++)
-                part_worst = fmax(part_worst, vec_dist(part.p[c / 4][c % 4], child[k].p[c / 4][c % 4]));
+                part_worst = max_of(part_worst, vec_dist(part.p[c / 4][c % 4], child[k].p[c / 4][c % 4]));
         }
     }
     NEAR(worst, 0, 1e-14, "the four children lie on the patch");
@@ -55,7 +55,7 @@ static void derivatives_are_limits(void) {
             vec_sub(bezier_point(&patch, u + h, w, NULL, NULL), bezier_point(&patch, u - h, w, NULL, NULL)), 0.5 / h);
         Vec3 nw = vec_scale(
             vec_sub(bezier_point(&patch, u, w + h, NULL, NULL), bezier_point(&patch, u, w - h, NULL, NULL)), 0.5 / h);
-        worst = fmax(worst, fmax(vec_dist(du, nu), vec_dist(dw, nw)));
+        worst = max_of(worst, max_of(vec_dist(du, nu), vec_dist(dw, nw)));
     }
     NEAR(worst, 0, 1e-8, "du and dw are the central differences' limits");
 }
@@ -65,7 +65,7 @@ static void basis_is_a_partition(void) {
     for (int n = 0; n <= 100; n++) {
         double b[4], d[4];
         bezier_basis(n / 100.0, b, d);
-        worst = fmax(worst, fabs(b[0] + b[1] + b[2] + b[3] - 1) + fabs(d[0] + d[1] + d[2] + d[3]));
+        worst = max_of(worst, fabs(b[0] + b[1] + b[2] + b[3] - 1) + fabs(d[0] + d[1] + d[2] + d[3]));
     }
     NEAR(worst, 0, 1e-14, "the basis sums to one and its slopes to zero");
 }

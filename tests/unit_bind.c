@@ -173,7 +173,7 @@ static void test_pose_in_front(void) {
     double most = 0;
     for (int frame = 0; frame < told.motion.nframes; frame++) {
         Pose p = rig_pose(&told, frame), q = rig_pose(&found, frame + 1);
-        for (int r = 0; r < ROLE_COUNT; r++) most = fmax(most, turned(p.bone[r].r, q.bone[r].r));
+        for (int r = 0; r < ROLE_COUNT; r++) most = max_of(most, turned(p.bone[r].r, q.bone[r].r));
     }
     OK(strcmp(found.figure.rest, "T-pose in frame 1") == 0, "rest: %s", found.figure.rest);
     OK(most < 0.5, "behind a T-pose every bone turns as with a human zero pose (%.2f degrees)", most);
@@ -231,7 +231,7 @@ static void test_horse_stance(void) {
                    &found, "tests/data/figure/horse.bvh", "riders without a horse")) return;
     double left = turn_difference(&told, &found, ROLE_LEFT_FOOT);
     double right = turn_difference(&told, &found, ROLE_RIGHT_FOOT);
-    OK(fmax(left, right) < 4, "feet under slanting shins lie flat (%.1f and %.1f degrees)", left, right);
+    OK(max_of(left, right) < 4, "feet under slanting shins lie flat (%.1f and %.1f degrees)", left, right);
     close_both(&told, &found);
 }
 
@@ -262,7 +262,7 @@ static void test_only_kneel(void) {
     for (int frame = 0; frame < 4; frame++) {
         Pose p = rig_pose(&told, told.motion.nframes - 4 + frame), q = rig_pose(&found, frame);
         for (int foot = ROLE_LEFT_FOOT; foot <= ROLE_RIGHT_FOOT; foot += ROLE_RIGHT_FOOT - ROLE_LEFT_FOOT)
-            most = fmax(most, turned(p.bone[foot].r, q.bone[foot].r));
+            most = max_of(most, turned(p.bone[foot].r, q.bone[foot].r));
     }
     OK(most < 16, "the feet of one who only kneels lie as they do (%.1f degrees)", most);
     close_both(&told, &found);

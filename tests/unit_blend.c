@@ -23,8 +23,8 @@ static void bends_about_the_joint(const Figure *f) {
         Pose pose = figure_rest_pose();
         Mat3 turn = mat_axis_angle(vec(1, 0, 0), bend * PI / 180);
         pose.bone[ROLE_LEFT_SHIN] = (Rigid){turn, vec_sub(knee, mat_apply(turn, knee))};
-        off = fmax(off, vec_dist(moved(f, &pose, &both, knee), knee));
-        off = fmax(off, fabs(vec_dist(moved(f, &pose, &both, beside), knee) - 0.06));
+        off = max_of(off, vec_dist(moved(f, &pose, &both, knee), knee));
+        off = max_of(off, fabs(vec_dist(moved(f, &pose, &both, beside), knee) - 0.06));
     }
     OK(off < 1e-12, "half thigh and half shin turn about the knee (%g m off)", off);
 }
@@ -40,7 +40,7 @@ static void thighs_twist_little_by_little(const Figure *f) {
     for (double down = 0; down <= 1; down += 0.125) {
         Vec3 arm = vec_mad(vec_scale(along, down), vec_unit_or(vec_cross(axis, vec(1, 0, 0)), axis), 0.08);
         Vec3 wanted = vec_add(hip, mat_apply(mat_axis_angle(axis, PI / 3 * down), arm));
-        off = fmax(off, vec_dist(moved(f, &pose, &thigh, vec_add(hip, arm)), wanted));
+        off = max_of(off, vec_dist(moved(f, &pose, &thigh, vec_add(hip, arm)), wanted));
     }
     OK(off < 1e-9, "cloth turns with a thigh the more the farther down it is (%g m off)", off);
 }
@@ -59,7 +59,7 @@ static void thighs_pass_straight_up(const Figure *f) {
         for (int n = 0; n < 8; n++) {
             Vec3 rest = vec_add(joint, vec(0.12 * cos(n * PI / 4), 0, 0.12 * sin(n * PI / 4)));
             Vec3 at = moved(f, &pose, &hip, rest);
-            if (k > 0) step = fmax(step, vec_dist(at, before[n]));
+            if (k > 0) step = max_of(step, vec_dist(at, before[n]));
             else first[n] = at;
             before[n] = at;
         }
@@ -84,7 +84,7 @@ static void sides_are_mirrored(const Figure *f) {
         turn_leg(f, &a, ROLE_LEFT_THIGH, mat_axis_angle(axis, angle));
         turn_leg(f, &b, ROLE_RIGHT_THIGH, mat_axis_angle(vec(axis.x, -axis.y, -axis.z), angle));
         Vec3 at = moved(f, &a, &left, rest), other = moved(f, &b, &right, vec(-rest.x, rest.y, rest.z));
-        off = fmax(off, vec_dist(at, vec(-other.x, other.y, other.z)));
+        off = max_of(off, vec_dist(at, vec(-other.x, other.y, other.z)));
     }
     OK(off < 1e-9, "left and right move as mirror images (%g m off)", off);
 }

@@ -85,7 +85,7 @@ static void test_distance(const Body *b) {
         const BodyPart *part = &b->part[i];
         for (int k = part->first_vertex; k < part->first_vertex + part->nvertices; k++) {
             double d = distance_in_stance(part, b->skin.position[k]);
-            worst_vertex = fmax(worst_vertex, fabs(d) / part->reach);
+            worst_vertex = max_of(worst_vertex, fabs(d) / part->reach);
         }
         for (int k = 0; k < 2000; k++) {
             double y = height_at(part, 0.02 + 0.96 * dice_unit()), phi = 2 * PI * dice_unit();
@@ -93,13 +93,13 @@ static void test_distance(const Body *b) {
             wrong_sign += distance(part, surface_point(part, y, phi, 1.001)) <= 0;
             wrong_sign += distance(part, surface_point(part, y, phi, 0.999)) >= 0;
             body_distance(part, p, INFINITY, &n);
-            worst_unit = fmax(worst_unit, fabs(vec_len(n) - 1));
+            worst_unit = max_of(worst_unit, fabs(vec_len(n) - 1));
             double h = 1e-6, offset = 1e-4;
             Vec3 g = vec(distance(part, vec(p.x + h, p.y, p.z)) - distance(part, vec(p.x - h, p.y, p.z)),
                          distance(part, vec(p.x, p.y + h, p.z)) - distance(part, vec(p.x, p.y - h, p.z)),
                          distance(part, vec(p.x, p.y, p.z + h)) - distance(part, vec(p.x, p.y, p.z - h)));
-            worst_gradient = fmax(worst_gradient, vec_dist(vec_scale(g, 0.5 / h), n));
-            worst_offset = fmax(worst_offset, fabs(distance(part, vec_mad(p, n, offset)) / offset - 1));
+            worst_gradient = max_of(worst_gradient, vec_dist(vec_scale(g, 0.5 / h), n));
+            worst_offset = max_of(worst_offset, fabs(distance(part, vec_mad(p, n, offset)) / offset - 1));
         }
     }
     const Patch *patch = b->patch;
@@ -109,7 +109,7 @@ static void test_distance(const Body *b) {
                 for (int k = 0; k < 20; k++) {
                     double u = dice_unit(), w = dice_unit();
                     Vec3 p = rigid_unapply(b->part[i].frame, bezier_point(patch, u, w, NULL, NULL));
-                    worst_patch = fmax(worst_patch, fabs(distance(&b->part[i], p)) / b->part[i].reach);
+                    worst_patch = max_of(worst_patch, fabs(distance(&b->part[i], p)) / b->part[i].reach);
                 }
     OK(worst_vertex < 3e-4, "skin vertices lie on the surface of the distance (%.2g of the radius)", worst_vertex);
     OK(worst_patch < 3e-4, "points of the patches do too (%.2g)", worst_patch);
@@ -134,7 +134,7 @@ static void test_bounds(const Body *b) {
             Vec3 p = vec((dice_unit() - 0.5) * 3 * part->reach, height_at(part, 1.4 * dice_unit() - 0.2),
                          (dice_unit() - 0.5) * 3 * part->reach);
             double truth = INFINITY, d = body_distance(part, p, far, NULL), whole = distance(part, p);
-            for (int j = 0; j < ROUND * ALONG; j++) truth = fmin(truth, vec_dist(p, cloud[j]));
+            for (int j = 0; j < ROUND * ALONG; j++) truth = min_of(truth, vec_dist(p, cloud[j]));
             if (whole <= 0) continue;
             checked++;
             too_long += d > far && d > truth;       /* a bound that is no bound */

@@ -10,7 +10,7 @@ static int own_shows(const FrameStats *s) { return s->residual_edges + s->residu
 static double longest_edge(const Mesh *m) {
     double longest = 0;
     for (int k = 0; k < m->nedges; k++)
-        longest = fmax(longest, vec_dist(m->position[m->edge[k].v[0]], m->position[m->edge[k].v[1]]));
+        longest = max_of(longest, vec_dist(m->position[m->edge[k].v[0]], m->position[m->edge[k].v[1]]));
     return longest;
 }
 
@@ -48,7 +48,7 @@ static double longest_stretch(const Mesh *m, const Vec3 *flat) {
     double most = 0;
     for (int k = 0; k < m->nedges; k++) {
         const int *v = m->edge[k].v;
-        most = fmax(most, vec_dist(m->position[v[0]], m->position[v[1]]) / vec_dist(flat[v[0]], flat[v[1]]));
+        most = max_of(most, vec_dist(m->position[v[0]], m->position[v[1]]) / vec_dist(flat[v[0]], flat[v[1]]));
     }
     return most;
 }
@@ -80,9 +80,9 @@ static void hand_between_knees(int facets) {
         FrameStats with = scene_frame(&s, push, &pose, 0, TIE_AFRESH, &mesh);
         shown += shows(&with) > 0;
         own_shown += own_shows(&with) > 0;
-        shallowest = fmin(shallowest, with.displacement);
-        stretch = fmax(stretch, longest_stretch(&mesh, flat));
-        for (int v = 0; v < mesh.nvertices && k > 0; v++) jump = fmax(jump, vec_dist(mesh.position[v], before[v]));
+        shallowest = min_of(shallowest, with.displacement);
+        stretch = max_of(stretch, longest_stretch(&mesh, flat));
+        for (int v = 0; v < mesh.nvertices && k > 0; v++) jump = max_of(jump, vec_dist(mesh.position[v], before[v]));
         memcpy(before, mesh.position, (size_t)mesh.nvertices * sizeof *before);
     }
     OK(shown == 0 && own_shown == 0, "which gives way in all of %d poses (%d, %d)", STEPS, shown, own_shown);
@@ -131,8 +131,8 @@ static void half_the_size(const char *garment) {
             stats[i] = scene_frame(&scene[i], dresser[i], &pose, 1 / 30.0, k ? TIE_GOES_ON : TIE_AFRESH, &mesh[i]);
         }
         for (int v = 0; v < mesh[0].nvertices; v++)
-            off = fmax(off, vec_dist(mesh[0].position[v], mesh[1].position[v]));
-        moved = fmax(moved, stats[0].displacement);
+            off = max_of(off, vec_dist(mesh[0].position[v], mesh[1].position[v]));
+        moved = max_of(moved, stats[0].displacement);
     }
     OK(moved > 0.03 && off < 1e-9, "%s, half as large: moved by up to %.0f mm, %.2g m off", garment, 1000 * moved, off);
     for (int i = 0; i < 2; i++) arena_free(&scene[i].arena);

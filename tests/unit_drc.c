@@ -14,7 +14,7 @@ static DrcWriter writer; /* of all files but one */
 
 static double tolerance(int bits, double unit) { return (0.5 * 1.1 / (pow(2, bits) - 1) + 2.4e-7) * unit; }
 
-static double distance(Vec3 a, Vec3 b) { return fmax(fabs(a.x - b.x), fmax(fabs(a.y - b.y), fabs(a.z - b.z))); }
+static double distance(Vec3 a, Vec3 b) { return max_of(fabs(a.x - b.x), max_of(fabs(a.y - b.y), fabs(a.z - b.z))); }
 
 /* original[i]: the vertex of `a` at the place of vertex i of b; false where there is none. */
 static bool match_vertices(const Mesh *a, const Mesh *b, double unit, double reach, int *original) {

@@ -60,10 +60,10 @@ static void field_is_smooth(Specimen *s, const char *name) {
                     }
                 }
                 int place = lattice_place(l, p, i, j);
-                if (known[place]) gap = fmax(gap, vec_dist(sum, seen[place]));
+                if (known[place]) gap = max_of(gap, vec_dist(sum, seen[place]));
                 seen[place] = sum;
                 known[place] = true;
-                slope = fmax(slope, fmax(vec_len(across), vec_len(along)));
+                slope = max_of(slope, max_of(vec_len(across), vec_len(along)));
             }
     NEAR(gap, 0, 1e-14, "neighbouring patches displace their common edge alike");
     NEAR(slope, 0, 1e-13, "the field has no slope across an edge");
@@ -122,7 +122,7 @@ static double smallest_area(const Specimen *s) {
             x[c] = bezier_point(&s->root[at.patch], (double)at.i / s->lattice.side, (double)at.j / s->lattice.side,
                                 NULL, NULL);
         }
-        least = fmin(least, vec_len(vec_cross(vec_sub(x[1], x[0]), vec_sub(x[2], x[0]))));
+        least = min_of(least, vec_len(vec_cross(vec_sub(x[1], x[0]), vec_sub(x[2], x[0]))));
     }
     return least;
 }
@@ -156,7 +156,7 @@ static double from_body(const Specimen *s, const FitPatch *patch, Vec3 x) {
     for (int b = 0; b < s->scene.body.nparts; b++) {
         const BodyPart *part = &s->scene.body.part[b];
         if (patch->collide >> part->role & 1)
-            nearest = fmin(nearest, body_distance(part, rigid_unapply(part->frame, x), 1, NULL));
+            nearest = min_of(nearest, body_distance(part, rigid_unapply(part->frame, x), 1, NULL));
     }
     return nearest;
 }
@@ -187,7 +187,7 @@ static void rest_is_clear(Specimen *s, const char *name) {
     OK(stats.displacement < 0.03, "%s: its rest shape fits the figure (moved %.1f mm)", name,
        1000 * stats.displacement);
     double off = 0;
-    for (int v = 0; v < mesh.nvertices; v++) off = fmax(off, fabs(vec_len(mesh.normal[v]) - 1));
+    for (int v = 0; v < mesh.nvertices; v++) off = max_of(off, fabs(vec_len(mesh.normal[v]) - 1));
     NEAR(off, 0, 1e-12, "normals are unit vectors");
 }
 

@@ -107,7 +107,7 @@ static void stays_in_the_garment(void) {
             if (body_frame_far(w.body, part, at, CLEARANCE)) continue;
             double d = distance(&w, part, at, &n);
             if (asked_for(&w, place, at, part, d, 0, &n) <= 0) continue;
-            most = fmax(most, vec_dot(n, lattice_normal(&w.specimen.lattice, w.specimen.root, place)));
+            most = max_of(most, vec_dot(n, lattice_normal(&w.specimen.lattice, w.specimen.root, place)));
             met++;
         }
     }
@@ -130,7 +130,7 @@ static void halves_the_room(void) {
         p.near = 1u << left | 1u << right;
         double way = escape_asked(&w.escape, w.body, &p, left, d, &n);
         if (way <= 0) continue;
-        worst = fmax(worst, fabs(d + way - room / 2));
+        worst = max_of(worst, fabs(d + way - room / 2));
         asked++;
     }
     OK(asked > 0 && worst < 1e-3, "between the thighs, %d times: the middle, to %.2f mm", asked, 1e3 * worst);

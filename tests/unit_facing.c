@@ -18,7 +18,7 @@ static Vec3 random_direction(void) {
 /* The cosine of the largest angle. */
 static double least(Vec3 axis, const Vec3 *p, int n) {
     double c = 1;
-    for (int i = 0; i < n; i++) c = fmin(c, vec_dot(axis, p[i]));
+    for (int i = 0; i < n; i++) c = min_of(c, vec_dot(axis, p[i]));
     return c;
 }
 
@@ -27,7 +27,7 @@ static double best_of_sphere(const Vec3 *p, int n) {
     double best = -1;
     for (int k = 0; k < DIRECTIONS; k++) {
         double turn = 2.399963229728653 * k, y = 1 - (2 * k + 1.0) / DIRECTIONS, r = sqrt(1 - y * y);
-        best = fmax(best, least(vec(r * cos(turn), y, r * sin(turn)), p, n));
+        best = max_of(best, least(vec(r * cos(turn), y, r * sin(turn)), p, n));
     }
     return best;
 }

@@ -71,7 +71,7 @@ static double limb_difference(Rig *a, Rig *b) {
         for (int i = 0; i < 8; i++) {
             Vec3 u = mat_apply(p.bone[limbs[i]].r, vec_sub(a->figure.end[limbs[i]], a->figure.start[limbs[i]]));
             Vec3 v = mat_apply(q.bone[limbs[i]].r, vec_sub(b->figure.end[limbs[i]], b->figure.start[limbs[i]]));
-            most = fmax(most, angle(u, v));
+            most = max_of(most, angle(u, v));
         }
     }
     return most;
@@ -212,7 +212,7 @@ static void test_lifted_thigh(void) {
             skeleton_pose(&r.motion.skeleton, r.row, r.world);
             figure_pose(&r.figure, r.world, &pose);
             Vec3 side = mat_column(pose.bone[ROLE_LEFT_THIGH].r, 0), hips = mat_column(pose.bone[ROLE_PELVIS].r, 0);
-            most = fmax(most, angle(side, hips));
+            most = max_of(most, angle(side, hips));
         }
     OK(most < 20, "a lifted thigh keeps its side where the hips have theirs, within %.0f degrees", most);
     rig_close(&r);
@@ -256,7 +256,7 @@ static double knee_off(const Pose *pose) {
     for (int side = 0; side < 2; side++) {
         Role thigh = side ? ROLE_RIGHT_THIGH : ROLE_LEFT_THIGH;
         Vec3 shin = mat_apply(mat_transpose(pose->bone[thigh].r), mat_column(pose->bone[thigh + 1].r, 1));
-        if (angle(shin, vec(0, 1, 0)) >= 90) most = fmax(most, fabs(atan2(shin.x, shin.z)) / DEGREE);
+        if (angle(shin, vec(0, 1, 0)) >= 90) most = max_of(most, fabs(atan2(shin.x, shin.z)) / DEGREE);
     }
     return most;
 }
@@ -275,7 +275,7 @@ static void measure_frame(Rig *r, Pose pose, Measures *m) {
     for (int i = 0; i < 12; i++) {
         if (r->roles.joint[landing[i]] < 0) continue;
         Vec3 at = rigid_apply(pose.bone[landing[i]], r->figure.start[landing[i]]);
-        m->landing = fmax(m->landing, vec_dist(at, rig_place(r, (Role)landing[i])));
+        m->landing = max_of(m->landing, vec_dist(at, rig_place(r, (Role)landing[i])));
     }
     for (int k = 0; k < ROLE_COUNT; k++) m->rotations += is_rotation(pose.bone[k].r);
     Vec3 pelvis = rigid_apply(pose.bone[ROLE_PELVIS], r->figure.start[ROLE_PELVIS]);
@@ -288,7 +288,7 @@ static void measure_frame(Rig *r, Pose pose, Measures *m) {
         m->shin_behind += shin.z; /* up of a bent shin leans forward in the thigh's frame */
         m->shin_aside += fabs(shin.x);
     }
-    m->knee_off = fmax(m->knee_off, knee_off(&pose));
+    m->knee_off = max_of(m->knee_off, knee_off(&pose));
     if (m->frames++ == 0) m->first = pelvis;
     m->last = pelvis;
     m->ahead = vec_add(m->ahead, mat_column(pose.bone[ROLE_PELVIS].r, 2));
@@ -332,7 +332,7 @@ static void test_same_skeleton(void) {
     bool good = rig_open(&a, path, NULL);
     good = rig_open(&b, rig_shared("cmu_daz_114_16_sit_stretch.bvh"), NULL) && good;
     double most = 0;
-    for (int r = 0; good && r < ROLE_COUNT; r++) most = fmax(most, vec_dist(a.figure.start[r], b.figure.start[r]));
+    for (int r = 0; good && r < ROLE_COUNT; r++) most = max_of(most, vec_dist(a.figure.start[r], b.figure.start[r]));
     OK(good && most < 1e-4, "one skeleton, one figure: run and floor sit within %.6f m", most);
     rig_close(&a);
     rig_close(&b);

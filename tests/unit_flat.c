@@ -8,7 +8,7 @@ static const double LEAST = 5e-6;
 
 static double height(const Vec3 *p, Triangle t) {
     double longest = 0;
-    for (int k = 0; k < 3; k++) longest = fmax(longest, vec_dist(p[t.v[k]], p[t.v[(k + 1) % 3]]));
+    for (int k = 0; k < 3; k++) longest = max_of(longest, vec_dist(p[t.v[k]], p[t.v[(k + 1) % 3]]));
     Vec3 n = vec_cross(vec_sub(p[t.v[1]], p[t.v[0]]), vec_sub(p[t.v[2]], p[t.v[0]]));
     return longest > 0 ? vec_len(n) / longest : 0;
 }

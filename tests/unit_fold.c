@@ -21,9 +21,9 @@ static void planes_halve_the_bend(Scene *s) {
         Vec3 hip = rigid_apply(pose.bone[ROLE_LEFT_THIGH], s->figure.start[ROLE_LEFT_THIGH]);
         Vec3 ankle = rigid_apply(pose.bone[ROLE_LEFT_SHIN], s->figure.end[ROLE_LEFT_SHIN]);
         Vec3 up = vec_unit_or(vec_sub(hip, f.joint), f.across), down = vec_unit_or(vec_sub(ankle, f.joint), f.across);
-        if (knee > 0) off = fmax(off, fabs(vec_dot(up, f.across) + vec_dot(down, f.across)));
-        if (knee > 0) off = fmax(off, fabs(vec_dot(up, f.inwards) - vec_dot(down, f.inwards)));
-        if (knee > 0) off = fmax(off, fabs(vec_dot(f.across, f.inwards)));
+        if (knee > 0) off = max_of(off, fabs(vec_dot(up, f.across) + vec_dot(down, f.across)));
+        if (knee > 0) off = max_of(off, fabs(vec_dot(up, f.inwards) - vec_dot(down, f.inwards)));
+        if (knee > 0) off = max_of(off, fabs(vec_dot(f.across, f.inwards)));
         backwards += f.closed < before || vec_dot(up, f.across) < 0;
         before = f.closed;
     }
@@ -47,7 +47,7 @@ static void a_fold_does_not_turn_over(Scene *s) {
         Pose pose = figure_rest_pose();
         scene_turn(s, &pose, ROLE_LEFT_THIGH, ROLE_LEFT_TOE, turn);
         Fold f = fold_of(s, &pose, ROLE_LEFT_THIGH);
-        if (degrees < 50) most = fmax(most, angle(f.across, before));
+        if (degrees < 50) most = max_of(most, angle(f.across, before));
         before = f.across;
     }
     OK(most < 10, "a degree of a hip that is bent flat turns its fold by no more than %.1f degrees", most);
@@ -116,7 +116,7 @@ static double beyond_knee(Specimen *c, const Pose *pose) {
             body_point_move(&at, x);
             int other = s->body.of_role[side == CREASE_ABOVE ? ROLE_LEFT_SHIN : ROLE_LEFT_THIGH];
             if (vec_dot(r, f.inwards) > f.radius && body_point_unpressed(&s->posed, other, &at, 1) < 0)
-                most = fmax(most, d);
+                most = max_of(most, d);
         }
     }
     return most;
@@ -130,7 +130,7 @@ static void cloth_stays_on_its_side(void) {
         Pose pose = figure_rest_pose();
         scene_leg(&c.scene, &pose, true, 90, knee);
         body_frame_pose(&c.scene.posed, &pose);
-        most = fmax(most, beyond_knee(&c, &pose));
+        most = max_of(most, beyond_knee(&c, &pose));
     }
     OK(most < 0.012, "cloth of thigh and shin stays on its side of a bent knee (%.1f mm beyond)", 1000 * most);
     arena_free(&c.scene.arena);

@@ -42,7 +42,7 @@ static double most_stretched(Specimen *c, const Pose *pose, Vec3 *rest) {
     for (int k = 0; k < c->sheet.nedges; k++) {
         int a = c->sheet.place[c->sheet.edge[k].v[0]], b = c->sheet.place[c->sheet.edge[k].v[1]];
         double now = vec_dist(lattice_point(&c->lattice, c->root, a), lattice_point(&c->lattice, c->root, b));
-        most = fmax(most, now / vec_dist(rest[a], rest[b]));
+        most = max_of(most, now / vec_dist(rest[a], rest[b]));
     }
     return most;
 }
@@ -56,7 +56,7 @@ static double deepest_in(Specimen *c, const Pose *pose, Role part, int rows) {
     for (int place = 0; place < c->lattice.nplaces; place++) {
         if (c->fit.patch[c->lattice.owner[place].patch].row >= rows) continue;
         Vec3 at = lattice_point(&c->lattice, c->root, place);
-        deepest = fmax(deepest, -body_frame_distance(&s->posed, s->body.of_role[part], at, 0, NULL));
+        deepest = max_of(deepest, -body_frame_distance(&s->posed, s->body.of_role[part], at, 0, NULL));
     }
     return deepest;
 }
@@ -70,7 +70,7 @@ static void raised_arms_stretch_little(void) {
     double most = 0;
     for (int degrees = -135; degrees <= 45; degrees += 15) {
         Pose pose = scene_reaching(s, degrees);
-        most = fmax(most, most_stretched(&c, &pose, rest));
+        most = max_of(most, most_stretched(&c, &pose, rest));
     }
     OK(most > 1.5 && most < 2.5, "below a raised arm cloth is spanned, to %.2f times its length", most);
     arena_free(&s->arena);
@@ -88,8 +88,8 @@ static void cloth_rides_up_round_the_seat(void) {
             Pose pose = figure_rest_pose();
             scene_leg(s, &pose, true, left, left);
             scene_leg(s, &pose, false, left - less, left);
-            most = fmax(most, most_stretched(&c, &pose, rest));
-            deepest = fmax(deepest, deepest_in(&c, &pose, ROLE_PELVIS, GARMENT_ROWS_MAX));
+            most = max_of(most, most_stretched(&c, &pose, rest));
+            deepest = max_of(deepest, deepest_in(&c, &pose, ROLE_PELVIS, GARMENT_ROWS_MAX));
         }
     OK(most > 1.5 && most < 1.95, "round the seat of who sits a skirt is spread, to %.2f times its length", most);
     OK(deepest < 0.005, "and goes no deeper through it than %.0f mm before it is pushed", 1e3 * deepest);
@@ -108,7 +108,7 @@ static void trousers_ride_up_a_raised_thigh(void) {
             Pose pose = figure_rest_pose();
             scene_leg(s, &pose, true, degrees, degrees);
             scene_turn(s, &pose, ROLE_LEFT_THIGH, ROLE_LEFT_TOE, mat_axis_angle(vec(0, 1, 0), out * PI / 180));
-            most = fmax(most, most_stretched(&c, &pose, rest));
+            most = max_of(most, most_stretched(&c, &pose, rest));
         }
     OK(most > 1.5 && most < 2.2, "between crotch and raised thigh trousers are stretched to %.2f times", most);
     arena_free(&s->arena);
@@ -125,7 +125,7 @@ static void waists_stay_between_belly_and_thigh(void) {
             Pose pose = figure_rest_pose();
             scene_leg(s, &pose, true, left, left);
             scene_leg(s, &pose, false, right, right);
-            deepest = fmax(deepest, deepest_in(&c, &pose, ROLE_LEFT_THIGH, 1));
+            deepest = max_of(deepest, deepest_in(&c, &pose, ROLE_LEFT_THIGH, 1));
         }
     OK(deepest < 0.035, "between belly and thigh a skirt's waist goes %.0f mm through the thigh", 1e3 * deepest);
     arena_free(&s->arena);
@@ -142,7 +142,7 @@ static double nearest_to_shoulder(Specimen *c, const Pose *pose) {
         const Binding *b = &f->fit->node[curve->node[k % 2]].binding;
         if (b->n != 2 || b->bone[0] != ROLE_CHEST || b->bone[1] != ROLE_LEFT_UPPER_ARM) continue;
         double then = vec_dist(curve->rest[3 * (k % 2)], joint);
-        least = fmin(least, vec_dist(f->curve[k / 2][3 * (k % 2)], now) / then);
+        least = min_of(least, vec_dist(f->curve[k / 2][3 * (k % 2)], now) / then);
     }
     return least;
 }
@@ -172,7 +172,7 @@ static void cloth_climbs_between_legs_that_are_far_apart(void) {
         Mat3 outwards = mat_axis_angle(vec(0, 0, 1), degrees * PI / 180);
         scene_turn(s, &straddle, ROLE_LEFT_THIGH, ROLE_LEFT_TOE, outwards);
         scene_turn(s, &straddle, ROLE_RIGHT_THIGH, ROLE_RIGHT_TOE, mat_transpose(outwards));
-        most = fmax(most, fmax(most_stretched(&c, &step, rest), most_stretched(&c, &straddle, rest)));
+        most = max_of(most, max_of(most_stretched(&c, &step, rest), most_stretched(&c, &straddle, rest)));
     }
     OK(most > 1.5 && most < 2.5, "between legs that are far apart a skirt is spread, to %.2f times its length", most);
     arena_free(&s->arena);
@@ -192,8 +192,8 @@ static void a_split_turns_no_skirt_over(void) {
         follow_pose(&c.follower, &pose, c.root);
         Vec3 *now = places_now(&c), at = rigid_apply(pose.bone[ROLE_LEFT_FOOT], s->figure.start[ROLE_LEFT_FOOT]);
         for (int place = 0; before && place < c.lattice.nplaces; place++)
-            most = fmax(most, vec_dist(now[place], before[place]));
-        if (before) leg = fmax(leg, vec_dist(at, foot));
+            most = max_of(most, vec_dist(now[place], before[place]));
+        if (before) leg = max_of(leg, vec_dist(at, foot));
         before = now;
         foot = at;
     }
@@ -210,7 +210,7 @@ static double least_to_the_left(Specimen *c, const Pose *pose) {
     for (int k = 0; k < fit->ncurves; k++) {
         Vec3 across = vec_sub(c->follower.curve[k][0], c->follower.curve[k][3]); /* in front they begin on the left */
         if (fit->curve[k].unit[1][1] < 0) across = vec_scale(across, -1);
-        least = fmin(least, vec_dot(mat_column(pose->bone[ROLE_PELVIS].r, 0), vec_unit_or(across, vec(0, 0, 0))));
+        least = min_of(least, vec_dot(mat_column(pose->bone[ROLE_PELVIS].r, 0), vec_unit_or(across, vec(0, 0, 0))));
     }
     return least;
 }
@@ -227,7 +227,7 @@ static void sides_of_a_skirt_stay_at_the_sides(void) {
             scene_leg(s, &pose, true, left, left);
             scene_leg(s, &pose, false, 110, 110);
             scene_turn(s, &pose, ROLE_RIGHT_THIGH, ROLE_RIGHT_TOE, mat_axis_angle(vec(0, -1, 0), out * PI / 180));
-            least = fmin(least, least_to_the_left(&c, &pose));
+            least = min_of(least, least_to_the_left(&c, &pose));
         }
     OK(least > 0.6, "a skirt's sides stay left and right of who squats, within %.0f degrees", acos(least) * 180 / PI);
     arena_free(&s->arena);

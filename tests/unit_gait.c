@@ -122,14 +122,14 @@ static Feet measure_feet(const Take *t, const Ground *ground) {
             Vec3 point[SOLE];
             sole(t, f, side, point);
             double height = point[part].y - ground_height(ground, point[part].z);
-            lower = fmin(lower, height);
+            lower = min_of(lower, height);
             bool touches = fabs(height) <= near;
             if (touches && !down[side][part]) start[side][part] = point[part];
             down[side][part] = touches;
-            if (touches) feet.slide = fmax(feet.slide, vec_dist(start[side][part], point[part]));
+            if (touches) feet.slide = max_of(feet.slide, vec_dist(start[side][part], point[part]));
         }
-        feet.lowest = fmin(feet.lowest, lower);
-        feet.floating = fmax(feet.floating, lower);
+        feet.lowest = min_of(feet.lowest, lower);
+        feet.floating = max_of(feet.floating, lower);
     }
     return feet;
 }
@@ -241,7 +241,7 @@ static void test_curves(double height) {
             int j = joint(&t, sides[side], angles[i].joint);
             for (int f = 4 * per; f < 8 * per; f++) {
                 double found = angles[i].sign * channel(&t, f, j, CHANNEL_RX) + angles[i].shift;
-                worst = fmax(worst, fabs(found - gait_curve(angles[i].curve, cycle_of(f, per, side))));
+                worst = max_of(worst, fabs(found - gait_curve(angles[i].curve, cycle_of(f, per, side))));
             }
         }
         OK(worst < 5, "%s within 5 degrees of the published one, over two strides (%.2f)", angles[i].name, worst);
@@ -263,7 +263,7 @@ static double difference(const Take *t, int a, int b) {
     double worst = 0;
     int n = t->motion.skeleton.nchannels;
     for (int i = 0; i < n; i++)
-        if (i != 2) worst = fmax(worst, fabs(t->row[a * n + i] - t->row[b * n + i]));
+        if (i != 2) worst = max_of(worst, fabs(t->row[a * n + i] - t->row[b * n + i]));
     return worst;
 }
 
@@ -276,9 +276,9 @@ static void test_period(const char *preset, int per, double step) {
     if (!OK(take_open(&g, &t), "%s, %d frames a step", preset, per)) return;
     double worst = 0, way = 0;
     for (int f = 4 * per; f < 8 * per; f++) {
-        worst = fmax(worst, difference(&t, f, f + 2 * per));
+        worst = max_of(worst, difference(&t, f, f + 2 * per));
         double gone = channel(&t, f + 2 * per, 0, CHANNEL_TZ) - channel(&t, f, 0, CHANNEL_TZ);
-        way = fmax(way, fabs(gone - 2 * 100 * g.step_length));
+        way = max_of(way, fabs(gone - 2 * 100 * g.step_length));
     }
     OK(worst < 0.00011, "a stride later the pose is the same in its printed digits (%g)", worst);
     OK(way < 0.00011, "and the walker two steps further on (%g)", way);
@@ -289,7 +289,7 @@ static void test_period(const char *preset, int per, double step) {
 static double speed(const Take *t, int a, int b) {
     double fastest = 0;
     for (int j = 0; j < t->motion.skeleton.njoints; j++)
-        fastest = fmax(fastest, vec_dist(place(t, a, j).t, place(t, b, j).t));
+        fastest = max_of(fastest, vec_dist(place(t, a, j).t, place(t, b, j).t));
     return fastest;
 }
 
@@ -306,8 +306,8 @@ static void test_start_and_end(void) {
     for (int f = 1; f < last; f++) {
         Vec3 now = place(&t, f, 0).t, ahead = vec_sub(place(&t, f + 1, 0).t, now);
         Vec3 behind = vec_sub(now, place(&t, f - 1, 0).t);
-        jerk = fmax(jerk, vec_dist(ahead, behind));
-        fastest = fmax(fastest, fabs(ahead.z));
+        jerk = max_of(jerk, vec_dist(ahead, behind));
+        fastest = max_of(fastest, fabs(ahead.z));
     }
     OK(jerk < 0.1, "the hips never jerk (%.3f cm a frame a frame)", jerk);
     OK(fastest < 1.05 * 100 * 0.394 * g.height / per, "nor hurry more than the steps do (%.3f cm a frame)", fastest);
@@ -340,11 +340,11 @@ static void test_paper(void) {
         for (int side = 0; side < 2; side++) {
             double phase = 2 * PI * f / 72 + side * PI, d = remainder(phase + 1.35, 2 * PI), left = side ? -1 : 1;
             double wanted = 6 + 54 * exp(-d * d / (2 * 0.62 * 0.62));
-            hip = fmax(hip, fabs(-channel(&t, f, joint(&t, sides[side], "UpLeg"), CHANNEL_RX) - 8 - 24 * cos(phase)));
-            knee = fmax(knee, fabs(channel(&t, f, joint(&t, sides[side], "Leg"), CHANNEL_RX) - wanted));
-            level = fmax(level, fabs(channel(&t, f, 0, CHANNEL_TY) - channel(&t, 0, 0, CHANNEL_TY)));
-            pace = fmax(pace, fabs(channel(&t, f, 0, CHANNEL_TZ) - f * 41 * 1.7 / 36));
-            clear = fmin(clear, left * place(&t, f, joint(&t, sides[side], "Hand")).t.x);
+            hip = max_of(hip, fabs(-channel(&t, f, joint(&t, sides[side], "UpLeg"), CHANNEL_RX) - 8 - 24 * cos(phase)));
+            knee = max_of(knee, fabs(channel(&t, f, joint(&t, sides[side], "Leg"), CHANNEL_RX) - wanted));
+            level = max_of(level, fabs(channel(&t, f, 0, CHANNEL_TY) - channel(&t, 0, 0, CHANNEL_TY)));
+            pace = max_of(pace, fabs(channel(&t, f, 0, CHANNEL_TZ) - f * 41 * 1.7 / 36));
+            clear = min_of(clear, left * place(&t, f, joint(&t, sides[side], "Hand")).t.x);
         }
     OK(hip < 0.0001 && knee < 0.0001, "hips and knees as the formula says (%g, %g degrees)", hip, knee);
     OK(level < 1e-9 && pace < 0.0001, "the pelvis glides evenly at one height (%g, %g cm)", level, pace);
@@ -361,7 +361,7 @@ static double least_between_shins(const Take *t) {
     for (int f = 0; f < t->motion.nframes; f++)
         for (double a = 0; a <= 1; a += step)
             for (double b = 0; b <= 1; b += step)
-                least = fmin(least, vec_dist(vec_lerp(place(t, f, knee[0]).t, place(t, f, ankle[0]).t, a),
+                least = min_of(least, vec_dist(vec_lerp(place(t, f, knee[0]).t, place(t, f, ankle[0]).t, a),
                                              vec_lerp(place(t, f, knee[1]).t, place(t, f, ankle[1]).t, b)));
     return least;
 }
@@ -372,8 +372,8 @@ static void test_squat_and_turn(void) {
     if (OK(take_open(&g, &t), "squatting")) {
         double lowest = INFINITY, knee = 0;
         for (int f = 0; f < t.motion.nframes; f++) {
-            lowest = fmin(lowest, channel(&t, f, 0, CHANNEL_TY));
-            knee = fmax(knee, channel(&t, f, joint(&t, "Left", "Leg"), CHANNEL_RX));
+            lowest = min_of(lowest, channel(&t, f, 0, CHANNEL_TY));
+            knee = max_of(knee, channel(&t, f, joint(&t, "Left", "Leg"), CHANNEL_RX));
         }
         OK(lowest < 0.31 * t.height, "the hips go down to the height of the knees (%.1f cm)", lowest);
         OK(knee > 100 && knee < 115, "and the knees bend beyond a right angle (%.0f degrees)", knee);
@@ -398,7 +398,7 @@ static void test_knee_lift(void) {
         g.knee_lift = 25 * i;
         if (take_open(&g, &t))
             for (int f = 0; f < t.motion.nframes; f++)
-                knee[i] = fmax(knee[i], channel(&t, f, joint(&t, "Left", "Leg"), CHANNEL_RX));
+                knee[i] = max_of(knee[i], channel(&t, f, joint(&t, "Left", "Leg"), CHANNEL_RX));
         take_close(&t);
     }
     OK(knee[1] - knee[0] > 15, "knee lift bends the knee more in swing (%.1f, %.1f degrees)", knee[0], knee[1]);

@@ -60,8 +60,8 @@ static void presses_its_own_side(void) {
         double depth = hollow_depth(h, p, v), facing = vec_dot(inwards, h->way);
         pressed += depth > 0.01;
         behind += facing < 0;
-        if (facing < 0) most = fmax(most, depth);
-        if (facing > 0.5) least = fmax(least, depth);
+        if (facing < 0) most = max_of(most, depth);
+        if (facing > 0.5) least = max_of(least, depth);
     }
     OK(pressed > 20 && least > 0.05, "%d vertices are pressed in, by up to %.0f mm", pressed, 1000 * least);
     OK(behind > 100 && most == 0, "none of the %d on the far side (%g)", behind, most);

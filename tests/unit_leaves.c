@@ -41,11 +41,11 @@ static void sheet_is_the_surface(const char *name, Push *push, const Leaves *lea
     for (int v = 0; v < sheet->nvertices; v++) {
         Vec3 p = lattice_point(l, root, sheet->place[v]);
         moved += memcmp(&p, &point[v], sizeof p) != 0;
-        worst_field = fmax(worst_field, vec_dist(field[v], field_at(&push->field, levels, sheet->place[v])));
+        worst_field = max_of(worst_field, vec_dist(field[v], field_at(&push->field, levels, sheet->place[v])));
         Vec3 n = field_normal(&push->field, root, levels, sheet->place[v]);
-        worst_normal = fmax(worst_normal, vec_dist(normal[v], n));
+        worst_normal = max_of(worst_normal, vec_dist(normal[v], n));
         Vec3 plain = field_normal(&push->field, root, 0, sheet->place[v]);
-        worst_normal = fmax(worst_normal, vec_dist(lattice_normal(l, root, sheet->place[v]), plain));
+        worst_normal = max_of(worst_normal, vec_dist(lattice_normal(l, root, sheet->place[v]), plain));
     }
     OK(moved == 0, "%s: %d vertices on the root patches, %d beside their leaves' grids (%d differ)", name,
        sheet->nvertices, sheet->nlone, moved);
@@ -118,7 +118,7 @@ static void leaves_are_the_surface(const char *name) {
                     for (int j = 0; j <= size; j += step, n++) {
                         Vec3 a = bezier_point(&leaf, (double)i / size, (double)j / size, NULL, NULL);
                         Vec3 b = surface(&push, root, p, x * lattice->detail + i, y * lattice->detail + j);
-                        worst = fmax(worst, vec_dist(a, b));
+                        worst = max_of(worst, vec_dist(a, b));
                     }
             }
     OK(n >= 25 * leaves_count(leaves) && worst < 1e-13, "%s: %d leaves are the surface itself (%.1e)", name,
@@ -192,7 +192,7 @@ static void nothing_beyond_the_cap_is_carried(void) {
     for (int round = 0; round < 2; round++) {
         double *most = round ? &after : &before;
         for (int place = 0; place < c.lattice.nplaces; place++)
-            *most = fmax(*most, vec_len(field_at(&field, field_levels(&field), place)));
+            *most = max_of(*most, vec_len(field_at(&field, field_levels(&field), place)));
         field_carry(&field, &s->posed, 0, false, &c.leaves);
     }
     OK(before > 2.5 * field.cap && after < 1.05 * field.cap, "of %.1f caps that have piled up %.2f are carried on",

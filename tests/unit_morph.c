@@ -54,7 +54,7 @@ static double show_jump(Show *w) {
         for (int v = 0; v < w->npoints[!k]; v++) {
             Vec3 at;
             boxtree_nearest(&tree, w->point[!k][v], NULL, &at);
-            worst = fmax(worst, vec_dist(at, w->point[!k][v]));
+            worst = max_of(worst, vec_dist(at, w->point[!k][v]));
         }
     }
     return worst;
@@ -66,7 +66,7 @@ static double show_off(Show *w) {
     double worst = 0;
     for (int v = 0; v < sheet->nvertices; v++) {
         Vec3 on = lattice_point(&w->cloth.lattice, w->cloth.root, sheet->place[v]);
-        worst = fmax(worst, vec_dist(on, w->point[!(w->frame % 2)][v]));
+        worst = max_of(worst, vec_dist(on, w->point[!(w->frame % 2)][v]));
     }
     return worst;
 }
@@ -92,13 +92,13 @@ static void splits_and_merges(const char *name) {
     show_frame(w, &plain, 0, true);
     for (int f = 0; f < FRAMES; f++) {
         show_frame(w, &split, 1 / 120.0, false);
-        opening = fmax(opening, show_jump(w));
+        opening = max_of(opening, show_jump(w));
     }
     double open_end = show_off(w);
     bool has_opened = leaves_count(&w->cloth.leaves) == leaves_count(&split);
     for (int f = 0; f < FRAMES; f++) {
         show_frame(w, &plain, 1 / 120.0, false);
-        closing = fmax(closing, show_jump(w));
+        closing = max_of(closing, show_jump(w));
         coarse += leaves_count(&w->cloth.leaves) == npatches;
     }
     OK(at_once > 1e-3, "%s: split or merged at once, its facets jump by %.1f mm", name, 1000 * at_once);

@@ -21,7 +21,7 @@ static void test_names(void) {
         NameHint h = name_hint(hints[i].name);
         double own = h.weight[hints[i].part], other = 0;
         for (int p = 0; p < PART_COUNT; p++)
-            if (p != (int)hints[i].part) other = fmax(other, h.weight[p]);
+            if (p != (int)hints[i].part) other = max_of(other, h.weight[p]);
         OK(h.side == hints[i].side && own >= 0.9 && own <= 1 && other <= 0.5, "'%s' is understood, and is nothing else",
            hints[i].name);
     }
@@ -49,7 +49,7 @@ static void test_names(void) {
     for (size_t i = 0; i < sizeof nothing / sizeof nothing[0]; i++) {
         NameHint h = name_hint(nothing[i]);
         double most = 0;
-        for (int p = 0; p < PART_COUNT; p++) most = fmax(most, h.weight[p]);
+        for (int p = 0; p < PART_COUNT; p++) most = max_of(most, h.weight[p]);
         OK(most == 0 && h.side == 0, "'%s' says nothing", i == 2 ? "bytes" : nothing[i]);
     }
 }

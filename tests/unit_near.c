@@ -45,11 +45,11 @@ static void as_one_by_one(const Worn *w) {
             bool is_near = near->parts >> part & 1;
             wrong += is_near != (d < FAR);
             if (!is_near) continue;
-            worst = fmax(worst, fabs(d - near->distance[part]));
-            least = fmin(least, d);
+            worst = max_of(worst, fabs(d - near->distance[part]));
+            least = min_of(least, d);
             parts++;
         }
-        worst = fmax(worst, fabs(least - near->least));
+        worst = max_of(worst, fabs(least - near->least));
     }
     OK(parts > 500 && wrong == 0, "%d parts are near vertices, and known (%d are not)", parts, wrong);
     NEAR(worst, 0, 1e-7, "their distances are those of single questions");
@@ -93,7 +93,7 @@ static void sums(const Worn *w) {
         Near near = w->near[v];
         near.least = -1;
         near_sum(&near, FAR);
-        worst = fmax(worst, fabs(near.least - w->near[v].least));
+        worst = max_of(worst, fabs(near.least - w->near[v].least));
     }
     NEAR(worst, 0, 0, "the least distance is the least of all");
 }

@@ -21,7 +21,7 @@ static void look_at_trunk(const Rig *r, const Pose *pose, int frame, Poses *p) {
         Mat3 joint = mat_mul(r->figure.upright, r->world[r->figure.roles.joint[role]].r);
         Mat3 seat = mat_mul(mat_transpose(joint), pose->bone[role].r);
         if (frame == 0) p->first[k] = seat;
-        p->slack = fmax(p->slack, turned(p->first[k], seat));
+        p->slack = max_of(p->slack, turned(p->first[k], seat));
     }
 }
 
@@ -35,8 +35,8 @@ static void look_at(const Rig *r, const Pose *pose, Poses *p) {
         Vec3 bone = mat_apply(pose->bone[role].r, vec_sub(f->end[role], f->start[role]));
         Vec3 seen = mat_apply(f->upright, vec_sub(r->world[toward].t, r->world[joint].t));
         p->asked++;
-        p->off = fmax(p->off, vec_dist(rigid_apply(pose->bone[role], f->start[role]), rig_place(r, role)));
-        p->astray = fmax(p->astray, angle(bone, seen));
+        p->off = max_of(p->off, vec_dist(rigid_apply(pose->bone[role], f->start[role]), rig_place(r, role)));
+        p->astray = max_of(p->astray, angle(bone, seen));
     }
 }
 
@@ -48,9 +48,9 @@ static void test_unknown_feet(void) {
     for (int k = ROLE_LEFT_FOOT; k <= ROLE_RIGHT_TOE; k++) r.figure.bound[k] = false;
     for (int frame = 0; frame < r.motion.nframes; frame++) {
         Mat3 shin = rig_pose(&r, frame).bone[ROLE_LEFT_SHIN].r, foot = rig_pose(&r, frame).bone[ROLE_LEFT_FOOT].r;
-        shins = fmax(shins, fabs(asin(mat_column(shin, 2).y)) / DEGREE);
-        soles = fmax(soles, fabs(asin(mat_column(foot, 2).y)) / DEGREE);
-        aside = fmax(aside, angle(mat_column(shin, 0), mat_column(foot, 0)));
+        shins = max_of(shins, fabs(asin(mat_column(shin, 2).y)) / DEGREE);
+        soles = max_of(soles, fabs(asin(mat_column(foot, 2).y)) / DEGREE);
+        aside = max_of(aside, angle(mat_column(shin, 0), mat_column(foot, 0)));
     }
     OK(shins > 25 && fabs(shins - soles - 20) < 0.01, "unknown feet are level, but for what an ankle does not give: "
        "%.1f of %.1f degrees", soles, shins);

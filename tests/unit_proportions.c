@@ -19,7 +19,7 @@ static double mirror_gap(const Mesh *m, const BodyPart *b, int triangle) {
     double nearest = INFINITY;
     for (int i = b->first_triangle; i < b->first_triangle + b->ntriangles; i++) {
         Vec3 q = centroid(m, i);
-        nearest = fmin(nearest, vec_dist(p, vec(-q.x, q.y, q.z)));
+        nearest = min_of(nearest, vec_dist(p, vec(-q.x, q.y, q.z)));
     }
     return nearest;
 }
@@ -33,7 +33,7 @@ static void test_symmetry(const Body *b) {
     for (int i = 0; i < 7; i++) {
         const BodyPart *part = part_of(b, left[i]);
         for (int k = part->first_triangle; k < part->first_triangle + part->ntriangles; k++)
-            worst = fmax(worst, mirror_gap(&b->skin, part_of(b, right[i]), k));
+            worst = max_of(worst, mirror_gap(&b->skin, part_of(b, right[i]), k));
     }
     OK(worst < 1e-12, "the right side mirrors the left, triangle by triangle (%.2g m)", worst);
 }
@@ -46,7 +46,7 @@ static void test_adult(const Body *b) {
     NEAR((double)b->skin.ntriangles, 8000, 400, "triangles at detail 16");
     const BodyPart *pelvis = part_of(b, ROLE_PELVIS), *thigh = part_of(b, ROLE_LEFT_THIGH);
     double hips = 0;
-    for (int i = 0; i < pelvis->nsections; i++) hips = fmax(hips, pelvis->section[i].side);
+    for (int i = 0; i < pelvis->nsections; i++) hips = max_of(hips, pelvis->section[i].side);
     NEAR(hips, 0.163, 0.002, "half width of the hips");
     NEAR(body_section(thigh, 0.15).side, 0.081, 0.002, "radius of the thigh near its top");
     bool flatter = true;
@@ -87,7 +87,7 @@ static void test_waist(const Body *b) {
             for (int j = 0; j < 60 * 48; j++) {
                 Vec3 p = surface_point(spine, height_at(spine, (j / 48) / 59.0), 2 * PI * (j % 48) / 48, 1);
                 p = vec_add(mat_apply(turn, p), spine->frame.t);
-                if (p.y < 1.01) worst = fmax(worst, distance_in_stance(pelvis, p));
+                if (p.y < 1.01) worst = max_of(worst, distance_in_stance(pelvis, p));
             }
         }
     OK(worst < -0.005, "below the waist a bending abdomen stays inside the pelvis (%.1f mm)", 1e3 * worst);
@@ -95,7 +95,7 @@ static void test_waist(const Body *b) {
 
 static double lowest(const Body *b, const BodyPart *part) {
     double y = INFINITY;
-    for (int i = 0; i < part->nvertices; i++) y = fmin(y, b->skin.position[part->first_vertex + i].y);
+    for (int i = 0; i < part->nvertices; i++) y = min_of(y, b->skin.position[part->first_vertex + i].y);
     return y;
 }
 
@@ -145,11 +145,11 @@ static void test_hips(void) {
         double crossing = 0;
         for (double at = 0; at < 0.8; at += 0.05) {
             Section s = body_section(thigh, at);
-            crossing = fmax(crossing, s.side - rigid_apply(thigh->frame, vec(s.x, 0, 0)).x);
+            crossing = max_of(crossing, s.side - rigid_apply(thigh->frame, vec(s.x, 0, 0)).x);
         }
         OK(crossing < 0.002, "%s hips: the thighs do not run into each other (%.1f mm)", name, 1e3 * crossing);
         double most = 0;
-        for (int k = 0; k < pelvis->nsections; k++) most = fmax(most, pelvis->section[k].side);
+        for (int k = 0; k < pelvis->nsections; k++) most = max_of(most, pelvis->section[k].side);
         OK(wide ? most > 0.185 && most < 0.21 : most > 0.15 && most < 0.165, "%s hips: the pelvis is %.3f m wide", name,
            2 * most);
         OK(distance_in_stance(pelvis, thigh->frame.t) < -0.02,

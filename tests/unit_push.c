@@ -82,7 +82,7 @@ static void place_does_not_matter(void) {
     FrameStats stats = scene_frame(&s, there, &moved, 1 / 30.0, TIE_AFRESH, &b);
     double worst = 0;
     for (int v = 0; v < a.nvertices; v++)
-        worst = fmax(worst, vec_dist(rigid_apply(move, a.position[v]), b.position[v]));
+        worst = max_of(worst, vec_dist(rigid_apply(move, a.position[v]), b.position[v]));
     OK(residual(&stats) == 0, "nothing shows 10 m away either");
     NEAR(worst, 0, 1e-4, "a moved and turned world gives the moved and turned mesh");
     arena_free(&s.arena);
@@ -118,8 +118,8 @@ static double most_needless(const Push *p, const BodyFrame *body) {
         double room = INFINITY;
         for (int part = 0; s->near.parts >> part; part++)
             if (s->near.parts >> part & 1)
-                room = fmin(room, body_frame_distance(body, part, s->near.seen, 1, NULL) - p->clearance[s->vertex]);
-        most = fmax(most, fmin(room, vec_len(s->net)));
+                room = min_of(room, body_frame_distance(body, part, s->near.seen, 1, NULL) - p->clearance[s->vertex]);
+        most = max_of(most, min_of(room, vec_len(s->net)));
     }
     return most;
 }

@@ -87,7 +87,7 @@ static void test_pair(void) {
     double most = good ? 0 : 1e9;
     for (int f = 0; f < other.motion.nframes && good; f++) {
         good = session_pose(&session, f + 1) && session_pose(&other, f);
-        for (int i = 0; i < 3; i++) most = fmax(most, vec_dist(session.world[0].r.r[i], other.world[0].r.r[i]));
+        for (int i = 0; i < 3; i++) most = max_of(most, vec_dist(session.world[0].r.r[i], other.world[0].r.r[i]));
     }
     NEAR(most, 0, 2e-6, "run.bvh and run.amc turn their root the same way");
     session_close(&session);

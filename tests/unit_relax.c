@@ -80,7 +80,7 @@ static double room_in(const Model *m, const Pose *pose) {
             for (int t = 0; t < 5; t++) {
                 const BodyPart *part = &m->body.part[m->body.of_role[trunk[t]]];
                 Rigid g = rigid_mul(pose->bone[trunk[t]], part->frame);
-                least = fmin(least, distance_to(part, rigid_unapply(g, p), 0.2));
+                least = min_of(least, distance_to(part, rigid_unapply(g, p), 0.2));
             }
         }
     }
@@ -89,7 +89,7 @@ static double room_in(const Model *m, const Pose *pose) {
 
 static double largest(const ArmTurn turn[ARMS]) {
     double most = 0;
-    for (int i = 0; i < ARMS * TURNS; i++) most = fmax(most, turn[i / TURNS].angle[i % TURNS]);
+    for (int i = 0; i < ARMS * TURNS; i++) most = max_of(most, turn[i / TURNS].angle[i % TURNS]);
     return most;
 }
 
@@ -118,13 +118,13 @@ static void test_enough(void) {
                 relax_find(&m.figure, &m.body, &m.padding, &pose, turn);
                 Pose free = relaxed(&m, &pose, 0), near = relaxed(&m, &pose, 1);
                 relax_find(&m.figure, &m.body, &m.padding, &free, rest);
-                again = fmax(again, largest(rest));
-                worst = fmin(worst, room_in(&m, &free));
+                again = max_of(again, largest(rest));
+                worst = min_of(worst, room_in(&m, &free));
                 n++;
                 if (largest(turn) < 1) continue;
                 turned++;
                 relax_find(&m.figure, &m.body, &m.padding, &near, rest);
-                least = fmin(least, largest(rest));
+                least = min_of(least, largest(rest));
             }
     OK(turned > n / 4 && worst > m.off - 0.004, "%d poses, %d with too little room: %.1f cm are left for cloth of %.1f",
        n, turned, 100 * worst, 100 * m.off);
@@ -175,9 +175,9 @@ static void test_continuous(void) {
             Pose pose = both_at(&m.figure, swing, 10 - 3.0 * path, 15.0 * path + swing, 2.0 * path);
             ArmTurn turn[ARMS];
             relax_find(&m.figure, &m.body, &m.padding, &pose, turn);
-            for (int i = 0; i < TURNS && k; i++) widest = fmax(widest, fabs(turn[0].angle[i] - before.angle[i]));
+            for (int i = 0; i < TURNS && k; i++) widest = max_of(widest, fabs(turn[0].angle[i] - before.angle[i]));
             before = turn[0];
-            most = fmax(most, largest(turn));
+            most = max_of(most, largest(turn));
         }
     OK(widest < 1.5 && most > 10, "a tenth of a degree of swing changes the turn by %.2f at most (of %.1f)", widest,
        most);
@@ -185,7 +185,7 @@ static void test_continuous(void) {
 
 static double difference(const ArmTurn *a, const ArmTurn *b) {
     double most = 0;
-    for (int i = 0; i < TURNS; i++) most = fmax(most, fabs(a->angle[i] - b->angle[i]));
+    for (int i = 0; i < TURNS; i++) most = max_of(most, fabs(a->angle[i] - b->angle[i]));
     return most;
 }
 
@@ -230,7 +230,8 @@ static void test_apply(void) {
     OK(changed == 6, "both arms' three bones move, nothing else");
     double torn = 0;
     for (Role r = ROLE_LEFT_FOREARM; r <= ROLE_LEFT_HAND; r++)
-        torn = fmax(torn, vec_dist(rigid_apply(out.bone[r], f->start[r]), rigid_apply(out.bone[r - 1], f->end[r - 1])));
+        torn = max_of(torn, vec_dist(rigid_apply(out.bone[r], f->start[r]),
+                                     rigid_apply(out.bone[r - 1], f->end[r - 1])));
     OK(torn < 1e-12, "they hang together");
     Vec3 right = vec_sub(rigid_apply(out.bone[ROLE_RIGHT_UPPER_ARM], f->end[ROLE_RIGHT_UPPER_ARM]),
                          rigid_apply(out.bone[ROLE_RIGHT_UPPER_ARM], f->start[ROLE_RIGHT_UPPER_ARM]));
@@ -251,17 +252,17 @@ static void test_padding(void) {
     double uneven = 0, thigh = 0, lap = 0, belly = 0, sleeve = 0, bare = 0;
     for (int k = 0; k < PADDING_PLACES; k++) {
         for (int r = ROLE_LEFT_CLAVICLE; r <= ROLE_LEFT_HAND; r++)
-            uneven = fmax(uneven, fabs(shirts.side[r][k] - shirts.side[r + ROLE_RIGHT_HAND - ROLE_LEFT_HAND][k]));
+            uneven = max_of(uneven, fabs(shirts.side[r][k] - shirts.side[r + ROLE_RIGHT_HAND - ROLE_LEFT_HAND][k]));
         for (int r = ROLE_LEFT_THIGH; r <= ROLE_LEFT_SHIN; r++) {
             int right = r + ROLE_RIGHT_THIGH - ROLE_LEFT_THIGH;
-            uneven = fmax(uneven, fabs(skirts.side[r][k] - skirts.side[right][k]));
-            uneven = fmax(uneven, fabs(skirts.front[r][k] - skirts.front[right][k]));
+            uneven = max_of(uneven, fabs(skirts.side[r][k] - skirts.side[right][k]));
+            uneven = max_of(uneven, fabs(skirts.front[r][k] - skirts.front[right][k]));
         }
-        thigh = fmax(thigh, skirts.side[ROLE_LEFT_THIGH][k]);
-        lap = fmax(lap, skirts.front[ROLE_LEFT_THIGH][k]);
-        belly = fmax(belly, shirts.front[ROLE_CHEST][k]);
-        sleeve = fmax(sleeve, shirts.side[ROLE_LEFT_UPPER_ARM][k]);
-        bare = fmax(bare, skirts.side[ROLE_LEFT_HAND][k] + shirts.side[ROLE_LEFT_SHIN][k]);
+        thigh = max_of(thigh, skirts.side[ROLE_LEFT_THIGH][k]);
+        lap = max_of(lap, skirts.front[ROLE_LEFT_THIGH][k]);
+        belly = max_of(belly, shirts.front[ROLE_CHEST][k]);
+        sleeve = max_of(sleeve, shirts.side[ROLE_LEFT_UPPER_ARM][k]);
+        bare = max_of(bare, skirts.side[ROLE_LEFT_HAND][k] + shirts.side[ROLE_LEFT_SHIN][k]);
     }
     OK(uneven < 1e-6, "left and right alike");
     OK(thigh > 0.05 && thigh < 0.2 && sleeve > 0.01 && sleeve <= 0.0301 && bare == 0,

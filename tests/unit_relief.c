@@ -52,11 +52,11 @@ static void test_enough(const Scene *s) {
     double least = 90, most = 0, jerk = 0, rough = 0;
     for (int f = 0; f < s->count; f++)
         for (int i = 0; i < ARMS * TURNS; i++) {
-            least = fmin(least, s->turn[f][i] - s->need[f][i]);
-            most = fmax(most, s->turn[f][i]);
+            least = min_of(least, s->turn[f][i] - s->need[f][i]);
+            most = max_of(most, s->turn[f][i]);
             if (f < 2) continue;
-            jerk = fmax(jerk, fabs(s->turn[f][i] - 2 * s->turn[f - 1][i] + s->turn[f - 2][i]));
-            rough = fmax(rough, fabs(s->need[f][i] - 2 * s->need[f - 1][i] + s->need[f - 2][i]));
+            jerk = max_of(jerk, fabs(s->turn[f][i] - 2 * s->turn[f - 1][i] + s->turn[f - 2][i]));
+            rough = max_of(rough, fabs(s->need[f][i] - 2 * s->need[f - 1][i] + s->need[f - 2][i]));
         }
     OK(most > 3 && least > -1e-9, "of %.1f degrees at most no frame gets less than it needs", most);
     OK(jerk < 0.1 && jerk < 0.2 * rough, "second differences: %.3f degrees, of the bare needs %.3f", jerk, rough);
@@ -72,7 +72,7 @@ static double difference(Scene *s, int first, int step) {
         double now[ARMS * TURNS];
         if (!relief_at(r, f, turn, &e)) return 1;
         copy(turn, now);
-        for (int i = 0; i < ARMS * TURNS; i++) most = fmax(most, fabs(now[i] - s->turn[f][i]));
+        for (int i = 0; i < ARMS * TURNS; i++) most = max_of(most, fabs(now[i] - s->turn[f][i]));
     }
     relief_close(r);
     return most;
@@ -81,7 +81,7 @@ static double difference(Scene *s, int first, int step) {
 static void test_alone(Scene *s) {
     double most = 0;
     for (int first = 0; first < s->count; first += 7)
-        for (int step = 1; step < 72; step = 2 * step + 1) most = fmax(most, difference(s, first, step));
+        for (int step = 1; step < 72; step = 2 * step + 1) most = max_of(most, difference(s, first, step));
     OK(most == 0, "the turn of a frame is the same to the last bit whatever else is asked for");
 }
 

@@ -94,7 +94,7 @@ static double from_skin(const BodyFrame *body, int part, Vec3 x) {
     for (int t = p->first_triangle; t < p->first_triangle + p->ntriangles; t++) {
         const int *v = body->body->skin.triangle[t].v;
         Vec3 near = boxtree_triangle_point(x, body->position[v[0]], body->position[v[1]], body->position[v[2]]);
-        least = fmin(least, vec_dist(x, near));
+        least = min_of(least, vec_dist(x, near));
     }
     return least;
 }
@@ -112,10 +112,10 @@ static void know_where(Sunk *c) {
         for (int i = 0; i < hit->n; i++) {
             x = vec_mad(x, c->mesh.position[hit->v[i]], hit->weight[i]);
             sum += hit->weight[i];
-            least = fmin(least, hit->weight[i]);
+            least = min_of(least, hit->weight[i]);
         }
         wrong += least < 0 || fabs(sum - 1) > 1e-12;
-        farthest = fmax(farthest, from_skin(body, hit->part, x));
+        farthest = max_of(farthest, from_skin(body, hit->part, x));
     }
     OK(c->anew.nhits == w.count.hits && wrong == 0, "%d hits, whose weights are 0 or more and add up to 1",
        c->anew.nhits);

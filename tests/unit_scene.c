@@ -44,7 +44,7 @@ static void curves(Outline *o) {
     NEAR(outline_area(o), PI * 150 * 150, 300, "of its area");
     double off = 0;
     for (int k = 0; k < o->count; k++)
-        off = fmax(off, fabs(hypot(o->point[k].x - 200, o->point[k].y - 200) - 150));
+        off = max_of(off, fabs(hypot(o->point[k].x - 200, o->point[k].y - 200) - 150));
     OK(off < 0.6, "whose points lie on the circle (%.2f pixels off)", off);
     OK(o->count > 20 && o->count < 100, "and are few: %d", o->count);
     OK(!outline_next(o), "and no more");
@@ -142,7 +142,7 @@ static void views(void) {
     OK(above.r[2].y > 0.999, "89 degrees look down");
     double off = 0;
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) off = fmax(off, fabs(vec_dot(above.r[i], above.r[j]) - (i == j)));
+        for (int j = 0; j < 3; j++) off = max_of(off, fabs(vec_dot(above.r[i], above.r[j]) - (i == j)));
     NEAR(off, 0, 1e-12, "views are rotations");
     NEAR(vec_dot(vec_cross(above.r[0], above.r[1]), above.r[2]), 1, 1e-12, "and do not mirror");
 }

@@ -41,7 +41,7 @@ static double missing(Pushed *p, int v) {
     double clearance = push->clearance[v], least = clearance;
     for (int k = 0; k < body->body->nparts; k++)
         if (escape_is_own(&push->escape, body, p->worn.cloth.sheet.place[v], k))
-            least = fmin(least, body_frame_distance(body, k, push->point[v], clearance, NULL));
+            least = min_of(least, body_frame_distance(body, k, push->point[v], clearance, NULL));
     return clearance - least;
 }
 
@@ -54,7 +54,7 @@ static int count_missing(Pushed *p, double more) {
 static double longest_offset(const Pushed *p) {
     const FieldSpots *offset = &p->worn.cloth.push.field.offset;
     double longest = 0;
-    for (int k = 0; k < offset->n; k++) longest = fmax(longest, vec_len(offset->at[offset->place[k]]));
+    for (int k = 0; k < offset->n; k++) longest = max_of(longest, vec_len(offset->at[offset->place[k]]));
     return longest;
 }
 
@@ -175,7 +175,7 @@ static void moves_hits_off(void) {
         double after = hit_distance(&p, hit);
         own++;
         off += after > 0.4 * p.margin;
-        least = fmin(least, after);
+        least = min_of(least, after);
     }
     OK(own > 0 && early == 0, "%d hits (%d edges): nothing moves that was not raised", own, w.own.edges);
     OK(off >= own - own / 20, "%d of %d are then off their part by half the distance (least %.1f mm)", off, own,

@@ -7,7 +7,7 @@ static double worst(Mat3 a, Mat3 b) {
     double most = 0;
     for (int i = 0; i < 3; i++) {
         Vec3 d = vec_sub(a.r[i], b.r[i]);
-        most = fmax(most, fmax(fabs(d.x), fmax(fabs(d.y), fabs(d.z))));
+        most = max_of(most, max_of(fabs(d.x), max_of(fabs(d.y), fabs(d.z))));
     }
     return most;
 }

@@ -61,7 +61,7 @@ static double longest_of_all(const Cut *t) {
     double most = -INFINITY;
     for (int k = 0; k < t->worn.cloth.sheet.nedges; k++) {
         int a = t->worn.cloth.sheet.edge[k].v[0], b = t->worn.cloth.sheet.edge[k].v[1];
-        most = fmax(most, too_long(t, a, b, moved(t, a), moved(t, b)));
+        most = max_of(most, too_long(t, a, b, moved(t, a), moved(t, b)));
     }
     return most;
 }
@@ -98,7 +98,7 @@ static void levels_one(Cut *t) {
     for (int round = 0; round < 10; round++) {
         want(t, 0);
         good = good && slopes_level(&t->slopes, &t->worn.cloth.push, (Limb)0, t->wanted, t->depth[0]);
-        longest = fmax(longest, longest_of_all(t));
+        longest = max_of(longest, longest_of_all(t));
         for (int v = 0; v < n; v++) {
             bool is_lower = t->depth[0][v] < t->wanted[0][v];
             lower += is_lower;
@@ -109,7 +109,7 @@ static void levels_one(Cut *t) {
         turn_edges_round(sheet);
         good = good && slopes_level(&t->slopes, &t->worn.cloth.push, (Limb)0, t->wanted, t->depth[0]);
         turn_edges_round(sheet);
-        for (int v = 0; v < n; v++) off = fmax(off, fabs(t->depth[0][v] - first[v]));
+        for (int v = 0; v < n; v++) off = max_of(off, fabs(t->depth[0][v] - first[v]));
     }
     OK(good && longest < 1e-9, "no edge is longer than it may be (%.2g mm)", 1000 * longest);
     OK(lower > 0 && free_ones == 0, "of %d vertices made shallower none could be deeper (%d)", lower, free_ones);
@@ -124,7 +124,7 @@ static void levels_several(Cut *t) {
         for (int limb = 0; limb < LIMBS; limb++) want(t, limb);
         for (int limb = 0; limb < LIMBS; limb++)
             good = slopes_level(&t->slopes, &t->worn.cloth.push, (Limb)limb, t->wanted, t->depth[limb]) && good;
-        longest = fmax(longest, longest_of_all(t));
+        longest = max_of(longest, longest_of_all(t));
     }
     OK(good && longest < 1e-9, "nor is one in the hollows of three limbs (%.2g mm)", 1000 * longest);
 }
@@ -135,7 +135,7 @@ static double worst_beside(Cut *t, int v, Vec3 x) {
     double worst = -INFINITY;
     int n;
     const int *beside = slopes_beside(&t->slopes, p->sheet, v, &n);
-    for (int k = 0; k < n; k++) worst = fmax(worst, too_long(t, v, beside[k], x, p->point[beside[k]]));
+    for (int k = 0; k < n; k++) worst = max_of(worst, too_long(t, v, beside[k], x, p->point[beside[k]]));
     return worst;
 }
 
@@ -147,9 +147,9 @@ static void moves_one(Cut *t) {
         int v = (int)dice_below((unsigned)p->sheet->nvertices), n;
         Vec3 x = p->point[v], by = vec_scale(dice_around(), 0.1);
         double share = slopes_share(&t->slopes, p, v, by), over = worst_beside(t, v, vec_mad(x, by, share));
-        longest = fmax(longest, over);
+        longest = max_of(longest, over);
         nshort += share < 1;
-        if (share < 1) shortest = fmin(shortest, over);
+        if (share < 1) shortest = min_of(shortest, over);
         if (share == 1) continue;
         int beside = slopes_beside(&t->slopes, p->sheet, v, &n)[0];
         p->field.dent[0].at[p->sheet->place[v]] = by;
@@ -157,7 +157,7 @@ static void moves_one(Cut *t) {
         double keeps = slopes_keeps(p, v, beside);
         p->field.dent[0].at[p->sheet->place[v]] = vec(0, 0, 0);
         p->point[v] = x;
-        kept = fmax(kept, too_long(t, v, beside, vec_mad(x, by, keeps), p->point[beside]));
+        kept = max_of(kept, too_long(t, v, beside, vec_mad(x, by, keeps), p->point[beside]));
     }
     OK(longest < 1e-9 && nshort > 100, "a single vertex stretches none too far (%.2g mm)", 1000 * longest);
     OK(shortest > -1e-9, "and goes as far as they let it (%.2g mm)", 1000 * shortest);

@@ -101,7 +101,8 @@ static double apart(const char *path, const Pose *a, const Pose *b) {
     Scene s = open_scene(path, &e);
     double most = 0;
     for (int r = 0; r < ROLE_COUNT; r++)
-        most = fmax(most, vec_dist(rigid_apply(a->bone[r], s.figure.end[r]), rigid_apply(b->bone[r], s.figure.end[r])));
+        most = max_of(most, vec_dist(rigid_apply(a->bone[r], s.figure.end[r]),
+                                     rigid_apply(b->bone[r], s.figure.end[r])));
     close_scene(&s);
     return most;
 }
@@ -134,18 +135,18 @@ static void test_rates(const char *path) {
     TakeFrame *same = all_frames(path, (FrameSpan){0}, rate, &twice);
     OK(twice == n, "its own rate: as many frames");
     double most = 0;
-    for (int i = 0; i < n; i++) most = fmax(most, apart(path, &f[i].pose, &same[i].pose));
+    for (int i = 0; i < n; i++) most = max_of(most, apart(path, &f[i].pose, &same[i].pose));
     NEAR(most, 0, 0, "which are the same");
     free(same);
     TakeFrame *g = all_frames(path, (FrameSpan){0}, 2 * rate, &twice);
     OK(twice == 2 * n - 1, "twice the rate: twice as many less one");
     double between = 0, step = 0;
     most = 0;
-    for (int i = 0; i < n; i++) most = fmax(most, apart(path, &f[i].pose, &g[2 * i].pose));
+    for (int i = 0; i < n; i++) most = max_of(most, apart(path, &f[i].pose, &g[2 * i].pose));
     for (int i = 0; i + 1 < n; i++) {
         step = apart(path, &f[i].pose, &f[i + 1].pose);
         double a = apart(path, &f[i].pose, &g[2 * i + 1].pose), b = apart(path, &g[2 * i + 1].pose, &f[i + 1].pose);
-        between = fmax(between, fmax(a, b) / step);
+        between = max_of(between, max_of(a, b) / step);
     }
     NEAR(most, 0, 0, "every other one is the source's own");
     OK(between < 0.6, "those between lie half-way (%.3f of the step at most)", between);
@@ -165,7 +166,7 @@ static void test_wrapped_angles(const char *path) {
     free(f);
     f = all_frames(path, (FrameSpan){0}, rate, &n);
     TakeFrame *g = all_frames(write_walk("wrapped.bvh", 2, wrap), (FrameSpan){0}, rate, &m);
-    for (int i = 0; i < n && i < m; i++) most = fmax(most, apart(path, &f[i].pose, &g[i].pose));
+    for (int i = 0; i < n && i < m; i++) most = max_of(most, apart(path, &f[i].pose, &g[i].pose));
     NEAR(most, 0, 1e-9, "angles that jump by 360 degrees are the same angles");
     free(f);
     free(g);

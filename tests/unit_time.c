@@ -44,7 +44,7 @@ static void trace_add(Trace *t, const Mesh *mesh) {
         Vec3 mean = vec_scale(vec_add(t->at[0][v], t->at[2][v]), 0.5);
         double change = 2 * vec_dist(mean, t->at[1][v]);
         t->change[t->nchanges++] = change;
-        t->largest = fmax(t->largest, change);
+        t->largest = max_of(t->largest, change);
     }
 }
 
@@ -111,7 +111,7 @@ static void rate_does_not_matter(const char *name) {
         for (int k = 0; k < INSTANTS; k++)
             for (int v = 0; v < n; v++) {
                 double off = vec_dist(best[k][v], other[k][v]);
-                worst = fmax(worst, off);
+                worst = max_of(worst, off);
                 sum += off / (n * INSTANTS);
             }
         OK(sum < 0.0005 && worst < 0.01, "%s: at %.0f frames a second the same shape as at 120 (%.2f mm, at most %.1f)",
@@ -161,7 +161,7 @@ static void astray_is_forgotten(const char *name, Tie back) {
         if (is_astray) continue;
         if (f == BACK && back == TIE_AFRESH) plain = open_dresser(&s, METHOD_PUSH);
         scene_frame(&s, plain, &pose, dt, tie, &a);
-        for (int v = 0; v < a.nvertices; v++) most = fmax(most, vec_dist(a.position[v], b.position[v]));
+        for (int v = 0; v < a.nvertices; v++) most = max_of(most, vec_dist(a.position[v], b.position[v]));
     }
     OK(most == 0, "%s: frames that are astray disturb no other%s", name,
        back == TIE_AFRESH ? ", nor do those in front of them where cloth starts afresh" : "");
@@ -172,7 +172,7 @@ static void astray_is_forgotten(const char *name, Tie back) {
 static double apart(const Mesh *a, const Mesh *b) {
     double most = a->nvertices == b->nvertices ? 0 : INFINITY;
     for (int v = 0; v < a->nvertices && v < b->nvertices; v++)
-        most = fmax(most, vec_dist(a->position[v], b->position[v]));
+        most = max_of(most, vec_dist(a->position[v], b->position[v]));
     return most;
 }
 
@@ -224,9 +224,9 @@ static void thrown_is_forgotten(Tie tie) {
         if (f == 1 && tie == TIE_ASTRAY) thrown = scene_frame(&s, other, &through, 1 / 30.0, tie, &b);
         scene_frame(&s, other, &pose[f], 1 / 30.0, on, &b);
         FrameStats stats = scene_frame(&s, plain, &pose[f], 1 / 30.0, on, &a);
-        least = fmin(least, stats.displacement);
+        least = min_of(least, stats.displacement);
         shown += stats.residual_edges + stats.residual_cloth + stats.inside;
-        most = fmax(most, apart(&a, &b));
+        most = max_of(most, apart(&a, &b));
     }
     OK(thrown.inside > 0 && shown == 0 && least > 0.07, "cloth comes back slowly, from %.0f mm to %.0f",
        1000 * thrown.displacement, 1000 * least);
@@ -258,7 +258,7 @@ static void no_room_is_no_haste(void) {
         double step = 0;
         for (int v = 0; v < cloth.nvertices; v++) {
             Vec3 by = vec_sub(cloth.position[v], plain.position[v]);
-            if (f > 0) step = fmax(step, vec_dist(by, last[v]));
+            if (f > 0) step = max_of(step, vec_dist(by, last[v]));
             last[v] = by;
         }
         bool bare = stats.residual_edges + stats.residual_cloth + stats.inside > 0;

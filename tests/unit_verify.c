@@ -340,13 +340,13 @@ static void test_nearest(void) {
         Box b = {vec(x[0] - 0.1, x[1] - 0.1, x[2] - 0.1), p};
         for (int t = 0; t < m.ntriangles; t++) {
             const Vec3 *v = &m.position[3 * t];
-            least = fmin(least, vec_dist(p, boxtree_triangle_point(p, v[0], v[1], v[2])));
+            least = min_of(least, vec_dist(p, boxtree_triangle_point(p, v[0], v[1], v[2])));
             all += box_touches(box_of_triangle(m.position, m.triangle[t]), b);
         }
         BoxWalk walk = boxtree_walk(&tree, b);
         while (boxtree_next(&walk) >= 0) found++;
         lost += found != all;
-        worst = fmax(worst, fabs(least - boxtree_nearest(&tree, p, NULL, NULL)));
+        worst = max_of(worst, fabs(least - boxtree_nearest(&tree, p, NULL, NULL)));
     }
     NEAR(worst, 0, 0, "the nearest of all is the nearest in the tree");
     OK(lost == 0, "and all that touch a box are found");

@@ -40,7 +40,7 @@ static void free_skin_stays(Scene *s) {
                         body_distance(&s->body.part[q], rigid_apply(s->posed.to_part[q], rigid), 1, NULL) < YIELD_ROOM;
             if (near) continue;
             stays++;
-            worst = fmax(worst, vec_dist(s->posed.position[v], rigid));
+            worst = max_of(worst, vec_dist(s->posed.position[v], rigid));
         }
     OK(stays > 1000 && worst < 2e-6, "%d vertices that nothing is near to stay (%.2g m off)", stays, worst);
 }
@@ -61,7 +61,7 @@ static void room_is_made(Scene *s) {
                y = body_frame_distance(&s->posed, trunk, p, 1, NULL);
         if (fabs(x) > 0.0005 || y > 0.03 || y < -0.02) continue;
         asked++;
-        least = fmin(least, x + y);
+        least = min_of(least, x + y);
     }
     OK(asked > 100 && least > YIELD_ROOM - 6e-4, "forearm and hip keep %.3f mm apart at %d points", 1e3 * least,
        asked);
@@ -92,16 +92,16 @@ static void skin_is_the_surface(Scene *s) {
     for (int p = 0; p < s->body.nparts; p++) {
         const BodyPart *part = &s->body.part[p];
         double most = 0;
-        for (int k = 0; k < s->posed.contacts[p].n; k++) most = fmax(most, s->posed.contacts[p].contact[k].most);
+        for (int k = 0; k < s->posed.contacts[p].n; k++) most = max_of(most, s->posed.contacts[p].contact[k].most);
         for (int v = part->first_vertex; v < part->first_vertex + part->nvertices; v++) {
             Vec3 rigid = rigid_apply(pose.bone[part->role], s->body.skin.position[v]);
             double by = vec_dist(rigid, s->posed.position[v]), sunk = s->posed.give[v].sunk;
-            deepest = fmax(deepest, by - sunk - most);
+            deepest = max_of(deepest, by - sunk - most);
             if (by < 1e-5) continue;
             moved++;
             double above = body_frame_distance(&s->posed, p, s->posed.position[v], 1, NULL);
-            worst = fmax(worst, sunk > 0 ? above : fabs(above));
-            below = fmax(below, -above);
+            worst = max_of(worst, sunk > 0 ? above : fabs(above));
+            below = max_of(below, -above);
         }
         out += edges_stand_out(s, p, &nedges);
     }
@@ -193,7 +193,7 @@ static void normals_are_slopes(void) {
         tried++;
         capped += by >= p.contact.soft * (1 - 1e-12);
         folded += p.contact.fold != NULL;
-        worst = fmax(worst, vec_dist(vec_unit_or(there, at), yield_normal(&p.contact, YIELD_ROOM, &m)));
+        worst = max_of(worst, vec_dist(vec_unit_or(there, at), yield_normal(&p.contact, YIELD_ROOM, &m)));
     }
     OK(worst < 1e-4 && capped > 100 && folded > 100 && tried - capped - folded > 100,
        "normals are slopes (off by %.2g in %d places, %d of them at the most, %d in a fold)", worst, tried, capped,
@@ -242,7 +242,7 @@ static void folds_flat(Scene *s) {
                 double in = vec_dot(r, inwards);
                 if (in < 0.075 || in > 0.12 || vec_dist(skin, now) < 0.002) continue;
                 flat++;
-                least = fmin(least, vec_dot(r, across));
+                least = min_of(least, vec_dot(r, across));
             }
         }
         OK(flat > 10 && least > 0.5 * YIELD_ROOM - 1e-3, "a knee bent by %.0f: %d vertices %.2f mm before the plane",
