@@ -1,6 +1,7 @@
 /* The turns of arms over a motion: never less than a frame needs, smooth, and of the frame alone. */
 #include "app/relief.h"
 
+#include "folder.h"
 #include "rig.h"
 #include "tap.h"
 
@@ -27,9 +28,9 @@ static void copy(const ArmTurn from[ARMS], double to[ARMS * TURNS]) {
 }
 
 /* A walk in cloth so wide that the swinging arms touch it again and again. */
-static void open_scene(Scene *s) {
+static void open_scene(Scene *s, const char *path) {
     Error e = {0};
-    if (!rig_open(&s->rig, "motions/paper-walk.bvh", NULL) ||
+    if (!rig_open(&s->rig, path, NULL) ||
         !body_fit(body_default(), &s->rig.figure, 16, &s->rig.arena, &s->body, &e))
         exit(1);
     for (int r = 0; r < ROLE_COUNT; r++)
@@ -85,11 +86,46 @@ static void test_alone(Scene *s) {
     OK(most == 0, "the turn of a frame is the same to the last bit whatever else is asked for");
 }
 
+/* A motion whose figure stands 30 m aside in two frames. */
+enum { ASTRAY = 30, BACK = 32 };
+static const char *write_astray(const char *path) {
+    char line[4096];
+    const char *name = in_folder("astray.bvh");
+    FILE *in = fopen(path, "r"), *out = fopen(name, "w");
+    if (!in || !out) exit(1);
+    for (int frame = -1; fgets(line, sizeof line, in);) {
+        if (frame >= ASTRAY && frame < BACK) fputs("3000", out);
+        fputs(frame >= ASTRAY && frame < BACK ? strchr(line, ' ') : line, out);
+        if (frame >= 0 || strncmp(line, "Frame Time", 10) == 0) frame++;
+    }
+    fclose(in);
+    fclose(out);
+    return name;
+}
+
+static void test_astray(const Scene *plain) {
+    static Scene s;
+    double off = 0, jerk = 0;
+    open_scene(&s, write_astray("motions/paper-walk.bvh"));
+    for (int f = 0; f < s.count; f++)
+        for (int i = 0; i < ARMS * TURNS && (f < ASTRAY || f >= BACK); i++) {
+            off = max_of(off, fabs(s.turn[f][i] - plain->turn[f][i]));
+            if (f == BACK) jerk = max_of(jerk, fabs(s.turn[f][i] - s.turn[ASTRAY - 1][i]));
+        }
+    OK(s.count == plain->count && off < 0.5 && jerk < 0.5,
+       "arms turn on past frames that are astray (%.2f degrees across them, %.2f off)", jerk, off);
+    test_alone(&s);
+    rig_close(&s.rig);
+}
+
 int main(void) {
     static Scene scene;
-    open_scene(&scene);
+    if (!folder_make()) return 1;
+    open_scene(&scene, "motions/paper-walk.bvh");
     test_enough(&scene);
     test_alone(&scene);
+    test_astray(&scene);
     rig_close(&scene.rig);
+    folder_remove();
     return tap_done();
 }

@@ -17,6 +17,15 @@ typedef struct {
 /* The step onto `frame`, from 0, of the source. *width gets the widest step of a bone, in heights. */
 Step jumps_judge(const JumpRule *rule, int frame, const Pose *behind, const Pose *ahead, double *width);
 
+/* Reads the pose of a frame of the source, from 0. */
+typedef bool JumpsRead(void *context, int frame, Pose *out, Error *e);
+
+/* At a jump of that width onto `frame`, of `count`, from the pose `behind`: does the motion go on in one of the next
+   frames as if it had not jumped? Then the frames before it are astray. *back: that frame, or `frame` if there is
+   none. */
+MUST_CHECK bool jumps_find_return(const JumpRule *rule, int frame, int count, double width, const Pose *behind,
+                                  JumpsRead *read, void *context, int *back, Error *e);
+
 /* Neighbouring frames first..last, from 1, each that far (in heights) from the one before. */
 typedef struct { int first, last; double width; Step kind; } Jump;
 

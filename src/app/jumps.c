@@ -11,6 +11,11 @@ static const double FAST_LIMB = 15, FAST_PELVIS = 8, TELEPORT = 80;
 /* A step also has to be so wide, in heights: noise at a high frame rate is no jump. */
 static const double WIDE_LIMB = 0.1, WIDE_PELVIS = 0.05;
 
+/* The motion is back from a jump that is so many times wider than what is left of it, and after so many frames at the
+   latest. */
+static const double BACK_FACTOR = 4;
+enum { ASTRAY_MOST = 3 };
+
 /* A single fast limb means a rest pose in front of the take only near its beginning. */
 enum { BEGINNING = 8 };
 
@@ -28,6 +33,20 @@ Step jumps_judge(const JumpRule *rule, int frame, const Pose *behind, const Pose
     if (pelvis > WIDE_PELVIS && pelvis > FAST_PELVIS * dt) return STEP_JUMP;
     if (is_fast && (frame < BEGINNING || *width > TELEPORT * dt)) return STEP_JUMP;
     return is_fast ? STEP_FLIP : STEP_PLAIN;
+}
+
+bool jumps_find_return(const JumpRule *rule, int frame, int count, double width, const Pose *behind, JumpsRead *read,
+                       void *context, int *back, Error *e) {
+    *back = frame;
+    for (int k = 1; k <= ASTRAY_MOST && frame + k < count && *back == frame; k++) {
+        JumpRule over = {rule->figure, rule->frame_time * (k + 1), rule->lone_first};
+        Pose ahead;
+        double left;
+        if (!read(context, frame + k, &ahead, e)) return false;
+        Step kind = jumps_judge(&over, frame + k, behind, &ahead, &left);
+        if (kind == STEP_PLAIN && left * BACK_FACTOR <= width) *back = frame + k;
+    }
+    return true;
 }
 
 /* The last of `count`. */

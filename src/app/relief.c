@@ -3,8 +3,8 @@
    taken, and of these maxima the weighted mean over another quarter of a second. Each maximum in that mean is at least
    the need of the frame itself, so the mean is as well; and it changes as smoothly as the weights.
 
-   This is done on the frames of the source, and never across a jump. So a frame gets the same turn whichever other
-   frames are dressed, at any rate and in any chunk. */
+   This is done on the frames of the source, and never across a jump, but past frames that are astray (app/take). So a
+   frame gets the same turn whichever other frames are dressed, at any rate and in any chunk. */
 #include "app/relief.h"
 
 /* Seconds to either side over which the largest is taken, and again over which it is smoothed. */
@@ -16,7 +16,7 @@ static const double REACH_MOST = 2048;
 /* A source frame, in a ring of them. */
 typedef struct {
     ArmTurn need[ARMS], most[ARMS];
-    int stretch; /* the same number: no jump in between */
+    int stretch; /* the same number: no jump in between, but for frames that are astray */
 } Moment;
 
 struct Relief {
@@ -29,6 +29,8 @@ struct Relief {
     double *row;
     Rigid *world;
     Pose pose;           /* of the last frame that was read */
+    int stretches;       /* so far */
+    int back, whole;     /* the frame in which the motion is back from those that are astray, and to which stretch */
     double span;         /* REACH in frames */
     int reach, size;     /* in whole frames, rounded up: of the window, of the ring */
     int begin, read, known; /* frames begin .. read - 1 have a need, those before `known` a maximum */
@@ -59,32 +61,50 @@ void relief_close(Relief *r) {
 
 static Moment *moment_of(const Relief *r, int frame) { return &r->ring[frame % r->size]; }
 
+static bool read_pose(void *context, int frame, Pose *out, Error *e) {
+    Relief *r = context;
+    if (!motion_row(r->reader, frame, r->row, e)) return false;
+    skeleton_pose(&r->motion->skeleton, r->row, r->world);
+    figure_pose(r->figure, r->world, out);
+    return true;
+}
+
+/* *stretch: that of the frame that was just read. before: the pose of the one in front of it, in stretch `last`. */
+static bool find_stretch(Relief *r, int frame, const Pose *before, int last, int *stretch, Error *e) {
+    JumpRule rule = {r->figure, r->motion->frame_time, r->lone_first};
+    double width;
+    *stretch = frame == r->back ? r->whole : last;
+    if (frame == r->back || jumps_judge(&rule, frame, before, &r->pose, &width) != STEP_JUMP) return true;
+    *stretch = ++r->stretches;
+    if (frame < r->back) return true;
+    r->whole = last;
+    return jumps_find_return(&rule, frame, r->motion->nframes, width, before, read_pose, r, &r->back, e);
+}
+
 static bool read_frame(Relief *r, Error *e) {
     int frame = r->read;
     Pose before = r->pose;
-    double width;
-    if (!motion_row(r->reader, frame, r->row, e)) return false;
-    skeleton_pose(&r->motion->skeleton, r->row, r->world);
-    figure_pose(r->figure, r->world, &r->pose);
     Moment *now = moment_of(r, frame);
-    now->stretch = 0;
-    if (frame > r->begin) {
-        JumpRule rule = {r->figure, r->motion->frame_time, r->lone_first};
-        bool jump = jumps_judge(&rule, frame, &before, &r->pose, &width) == STEP_JUMP;
-        now->stretch = moment_of(r, frame - 1)->stretch + jump;
-    }
+    if (!read_pose(r, frame, &r->pose, e)) return false;
+    now->stretch = r->stretches;
+    if (frame > r->begin && !find_stretch(r, frame, &before, moment_of(r, frame - 1)->stretch, &now->stretch, e))
+        return false;
     relax_find(r->figure, r->body, r->padding, &r->pose, now->need);
     r->read++;
     return true;
 }
 
-/* The frames that have been read within REACH of `frame`, with no jump between. */
+/* The first and the last frame of the same stretch that have been read within REACH of `frame`. */
 static void window_of(const Relief *r, int frame, int *first, int *last) {
     int stretch = moment_of(r, frame)->stretch;
     *first = frame - r->reach > r->begin ? frame - r->reach : r->begin;
     *last = frame + r->reach < r->motion->nframes ? frame + r->reach : r->motion->nframes - 1;
     while (moment_of(r, *first)->stretch != stretch) ++*first;
     while (moment_of(r, *last)->stretch != stretch) --*last;
+}
+
+static bool is_with(const Relief *r, int frame, int other) {
+    return moment_of(r, frame)->stretch == moment_of(r, other)->stretch;
 }
 
 /* The largest need in the window. Where an end of the window lies between two frames, the need there is interpolated,
@@ -99,6 +119,8 @@ static void find_most(Relief *r, int frame) {
         for (int k = first; k <= last; k++) {
             double need = moment_of(r, k)->need[arm].angle[turn];
             int inner = k == frame - r->reach ? k + 1 : k == frame + r->reach ? k - 1 : k;
+            if (!is_with(r, k, frame)) continue;
+            if (!is_with(r, inner, frame)) inner = k;
             double within = moment_of(r, inner)->need[arm].angle[turn];
             most = fmax(most, within + part * (need - within));
         }
@@ -130,6 +152,7 @@ bool relief_at(Relief *r, int frame, ArmTurn out[ARMS], Error *e) {
         double sum = 0, weights = 0;
         for (int k = first; k <= last; k++) {
             double w = r->weight[k < frame ? frame - k : k - frame];
+            if (!is_with(r, k, frame)) continue;
             weights += w;
             sum += w * moment_of(r, k)->most[arm].angle[turn];
         }

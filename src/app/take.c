@@ -15,15 +15,14 @@
 #include "app/relief.h"
 
 /* The first frame stands alone if the step to the second is so many times wider than any of the
-   next steps, and wider than this part of the height. The motion is back from a jump that is so many times
-   wider than what is left of it. */
+   next steps, and wider than this part of the height. */
 static const double LONE_FACTOR = 4, LONE_STEP = 0.05;
 
 /* Frame times are rounded in files ("0.0083333"): what lies nearer than this to a frame of the
    source, as a part of its time, is that frame and no mixture. */
 static const double ROUNDING = 1e-5;
 
-enum { LONE_LOOK = 8, ASTRAY_MOST = 3 };
+enum { LONE_LOOK = 8 };
 
 /* A source frame: the joints in the file's units and axes, and the figure's pose. */
 typedef struct { int frame; Rigid *world; Pose pose; bool is_astray; } SourceFrame;
@@ -81,18 +80,10 @@ static bool look_at_first(Take *t, Error *e) {
     return true;
 }
 
-/* At a jump so wide: does the motion go on in one of the next frames as if it had not been? */
-static bool look_for_return(Take *t, JumpRule rule, double jump, Error *e) {
-    double frame_time = rule.frame_time, width;
-    for (int k = 1; k <= ASTRAY_MOST && t->ahead.frame + k < t->motion->nframes; k++) {
-        int frame = t->ahead.frame + k;
-        if (!load(t, &t->probe, frame, e)) return false;
-        rule.frame_time = frame_time * (k + 1);
-        Step kind = jumps_judge(&rule, frame, &t->behind.pose, &t->probe.pose, &width);
-        if (kind != STEP_PLAIN || width * LONE_FACTOR > jump) continue;
-        t->astray_until = frame;
-        break;
-    }
+static bool read_probe(void *context, int frame, Pose *out, Error *e) {
+    Take *t = context;
+    if (!load(t, &t->probe, frame, e)) return false;
+    *out = t->probe.pose;
     return true;
 }
 
@@ -105,7 +96,10 @@ static bool advance(Take *t, Error *e) {
     if (kind != STEP_PLAIN) jumps_add(&t->jumps, t->ahead.frame + 1, width, kind);
     t->passed = t->passed || t->cut;
     t->within = kind == STEP_JUMP;
-    if (t->within && !t->behind.is_astray && !look_for_return(t, rule, width, e)) return false;
+    if (t->within && !t->behind.is_astray &&
+        !jumps_find_return(&rule, t->ahead.frame, t->motion->nframes, width, &t->behind.pose, read_probe, t,
+                           &t->astray_until, e))
+        return false;
     t->ahead.is_astray = t->ahead.frame < t->astray_until;
     t->cut = t->within && !t->behind.is_astray && !t->ahead.is_astray;
     return true;
