@@ -164,4 +164,10 @@ marked() { # with a byte-order mark, as some editors write it
 like 'inspect: a garment with a byte-order mark' "$(marked "$skirt")" '^marked: garment skirt$'
 like 'inspect: a body with one' "$(marked "$root/garments/adult.body")" '^marked: body adult$'
 ok 'inspect: a garment with a mistake' inspects 3 x.garment '^x.garment:2:8: error: '
+like 'inspect: how large a garment is' "$("$KITSUKE" inspect "$skirt")" \
+    '^  size        0\.56[0-9] m wide, 0\.[56][0-9]* m high, 0\.40[0-9] m deep, where the figure is 1.70 m tall$'
+printf 'ring a pelvis 1\n' >x.garment
+ok 'inspect: a garment without its name' inspects 3 x.garment "^x.garment:1:1: .*begin with 'garment NAME'"
+printf 'part head\n' >x.body
+ok 'inspect: a body without its name' inspects 3 x.body "^x.body:1:1: .*expected 'body NAME'"
 done_testing

@@ -89,8 +89,8 @@ int dresser_leaves(const Dresser *d, LeafKind kind, Patch *out, int capacity);
    edges of that mesh; returns how many. */
 int dresser_borders(const Dresser *d, LeafKind kind, Edge *out);
 
-/* Facts for `inspect`. own_parts: bits 1 << role that the garment collides with. */
-typedef struct { int patches, openings; unsigned own_parts; } DresserInfo;
+/* Facts for `inspect`. own_parts: bits 1 << role that the garment collides with. size: at rest, metres. */
+typedef struct { int patches, openings; unsigned own_parts; Vec3 size; } DresserInfo;
 DresserInfo dresser_info(const Dresser *d);
 
 #endif

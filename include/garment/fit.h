@@ -63,6 +63,9 @@ typedef struct {
 /* Names of the four control points along a side, in the direction of growing u or w. */
 void fit_side(const FitPatch *patch, Side side, int out[4]);
 
+/* What holds the garment in the canonical stance: of panels their rows, of patches 17 by 17 points. */
+Box fit_box(const Fit *fit);
+
 /* Sizes `garment` to the figure. The garment must outlive the fit. ERR_INPUT where it names a
    part that this body does not have or where shared edges do not agree. */
 MUST_CHECK bool fit_garment(const Garment *garment, const Figure *figure, const Body *body, Arena *arena, Fit *out,

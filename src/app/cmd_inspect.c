@@ -197,6 +197,8 @@ static bool parse_body(const Text *text, void *out, Error *e) { return body_pars
 static void print_garment(const char *path, const Garment *g, const DresserInfo *info) {
     printf("%s: garment %s\n", path, g->name);
     printf("  follows     %s, %s\n", g->follow == FOLLOW_BONES ? "bones" : "envelope", g->loose ? "loose" : "tight");
+    printf("  size        %.3f m wide, %.3f m high, %.3f m deep, where the figure is 1.70 m tall\n", info->size.x,
+           info->size.y, info->size.z);
     printf("  patches     %d\n", info->patches);
     printf("  panels      %d and %d raw patch%s\n", g->npanels, g->npatches, g->npatches == 1 ? "" : "es");
     for (int i = 0; i < g->npanels; i++) printf("    %-18s %d rows\n", g->panel[i].name, g->panel[i].nrows);
@@ -238,11 +240,16 @@ static bool inspect_body(const Text *text, Arena *arena, Error *e) {
     return print_round_trip(text, spec, parse_body, spec + 1, write_body, e);
 }
 
+/* A file is what its first word says, or its name where the word is wrong. */
 static bool inspect(const char *path, const Settings *s, const RoleFile *roles, Arena *arena, Error *e) {
     char word[TEXT_FIRST];
     Text text;
     if (!text_first_word(path, word, e)) return false;
     bool is_garment = strcmp(word, "garment") == 0, is_body = strcmp(word, "body") == 0;
+    if (!is_garment && !is_body) {
+        is_garment = text_ends_in(path, ".garment");
+        is_body = text_ends_in(path, ".body");
+    }
     if (s->joints || (!is_garment && !is_body)) return inspect_motion(path, s, roles, arena, e);
     if (!text_read(path, MODEL_FILE_MAX, arena, &text, e)) return false;
     return is_garment ? inspect_garment(&text, arena, e) : inspect_body(&text, arena, e);

@@ -221,6 +221,7 @@ int dresser_borders(const Dresser *d, LeafKind kind, Edge *out) {
 }
 
 DresserInfo dresser_info(const Dresser *d) {
-    return (DresserInfo){
-        .patches = d->fit.npatches, .openings = d->fit.nopenings, .own_parts = d->fit.collide};
+    Box box = fit_box(&d->fit);
+    return (DresserInfo){.patches = d->fit.npatches, .openings = d->fit.nopenings, .own_parts = d->fit.collide,
+                         .size = vec_sub(box.high, box.low)};
 }

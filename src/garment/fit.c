@@ -165,6 +165,22 @@ static void complete_colliders(Fit *f) {
         if (!f->patch[p].collide) f->patch[p].collide = f->collide;
 }
 
+Box fit_box(const Fit *f) {
+    enum { PLACES = 16 };
+    Box box = box_empty();
+    for (int c = 0; c < f->ncurves; c++)
+        for (int k = 0; k <= PLACES; k++) box_add(&box, arc_at(&f->curve[c], (double)k / PLACES));
+    for (int p = 0; p < f->garment->npatches; p++) {
+        Patch patch;
+        for (int k = 0; k < 16; k++) patch.p[k / 4][k % 4] = f->raw[p][k];
+        for (int k = 0; k < (PLACES + 1) * (PLACES + 1); k++) {
+            double u = (double)(k / (PLACES + 1)) / PLACES, w = (double)(k % (PLACES + 1)) / PLACES;
+            box_add(&box, bezier_point(&patch, u, w, NULL, NULL));
+        }
+    }
+    return box;
+}
+
 bool fit_garment(const Garment *garment, const Figure *figure, const Body *body, Arena *arena, Fit *out, Error *e) {
     *out = (Fit){.garment = garment, .scale = body->scale, .height = figure->height};
     Tailor t = {.g = garment, .body = body, .fit = out, .arena = arena};
