@@ -331,6 +331,9 @@ static const Mistake mistakes[] = {
     /* rings */
     {"garment g\nring a pelvis\n", 2, 14, "expected 'ring NAME PART AT"},
     {"garment g\nring a left_tigh 1\n", 2, 8, "unknown body part 'left_tigh'; did you mean 'left_thigh'?"},
+    {"garment g\nring a thigh 1\n", 2, 8, "unknown body part 'thigh': expected left_thigh or right_thigh"},
+    {"garment g\nring a hips 1\n", 2, 8, "unknown body part 'hips': expected pelvis, spine, chest, neck, head, or "
+     "with left_ or right_: clavicle, upper_arm, forearm, hand, thigh, shin, foot, toe"},
     {"garment g\nring a pelvis nan\n", 2, 15, "expected a number, found 'nan'"},
     {"garment g\nring a pelvis 1e99\n", 2, 15, "out of range"},
     {"garment g\nring a pelvis 12\n", 2, 15, "from -10 to 10"},
@@ -338,7 +341,7 @@ static const Mistake mistakes[] = {
     {"garment g\nring a pelvis 1 ease\n", 2, 21, "expected a number"},
     {"garment g\nring a pelvis 1 ease 1 ease 1\n", 2, 24, "'ease' is given twice"},
     {"garment g\nring a pelvis 1 size 1 1\n", 2, 25, "expected a number"},
-    {"garment g\nring a pelvis 1 size -1 1 1\n", 2, 22, "from 0 to 100"},
+    {"garment g\nring a pelvis 1 size -1 1 1\n", 2, 22, "expected metres, from 0 to 10"},
     {"garment g\nring a pelvis 1 size 0 1 1\n", 2, 6, "no size left"},
     {"garment g\nring a pelvis 1 tilt 181\n", 2, 22, "from -180 to 180"},
     /* bind, move, join */
@@ -426,7 +429,7 @@ static const Mistake mistakes[] = {
      "'b' must lie below 'a'"},
     {"garment g\nfollow envelope\nring a pelvis 1\nring b pelvis 0\nring c left_shin 0\npanel p\nrow a left front\nrow "
      "c left front\n",
-     6, 7, "does not have all rings"},
+     6, 7, "row 2 of the panel 'p' must be on the ring 'b'"},
     {"garment g\nfollow envelope\nring a pelvis 1\nring b pelvis 0\npanel p\nrow a left front\nrow b left front\nring "
      "c left_shin 0\n",
      8, 1, "must stand above its panels"},

@@ -19,7 +19,7 @@ const char *role_name(Role role);
 /* The role of that name (length bytes), or ROLE_COUNT. */
 Role role_find(const char *name, int length);
 
-/* Records "unknown WHAT 'NAME'", with the role that was probably meant, and returns false. */
+/* Records "unknown WHAT 'NAME'", with the role that was probably meant or else all of them, and returns false. */
 bool role_unknown(const char *name, const char *what, Place place, Error *e);
 
 /* The limb that a role belongs to: 0 the trunk with neck and head, 1 and 2 the arms (left, right), 3 and 4

@@ -5,7 +5,7 @@
 
 #include "garment/garment.h"
 
-enum { LENGTH_MAX = 100 }; /* metres; nothing worn is longer */
+enum { LENGTH_MAX = 10 };  /* metres; nothing worn is longer: a slip of the pen, centimetres most often */
 enum { PLACE_MAX = 10 };   /* bone lengths; a ring farther from its bone is a slip of the pen, per cent most often */
 
 /* nearest_error at word i. */
@@ -26,9 +26,10 @@ MUST_CHECK bool words_ring(const Garment *g, const Line *line, int i, int *out, 
 MUST_CHECK bool words_ring_station(const Garment *g, const Line *line, int i, int *ring, Station *station, Error *e);
 MUST_CHECK bool words_piece_side(const Garment *g, const Line *line, int i, int *piece, Side *side, Error *e);
 
-/* Numbers are finite and never -0. A vector is three lengths. */
+/* Numbers are finite and never -0. Lengths are metres, sizes not less than 0. A vector is three lengths. */
 MUST_CHECK bool words_number(const Line *line, int i, double low, double high, double *out, Error *e);
 MUST_CHECK bool words_length(const Line *line, int i, double *out, Error *e);
+MUST_CHECK bool words_size(const Line *line, int i, double *out, Error *e);
 MUST_CHECK bool words_vector(const Line *line, int i, Vec3 *out, Error *e);
 
 /* PART WEIGHT pairs from word i to the end of the line; the weights are made to sum to 1. */

@@ -45,8 +45,16 @@ Role role_find(const char *name, int length) {
 
 bool role_unknown(const char *name, const char *what, Place place, Error *e) {
     Nearest near = {.word = name};
-    for (int r = 0; r < ROLE_COUNT; r++) nearest_try(&near, names[r]);
-    return nearest_error(&near, what, place, e);
+    for (int r = 0; r < ROLE_COUNT; r++) {
+        if (role_limb((Role)r) % 2 && strcmp(name, names[r] + strlen("left_")) == 0)
+            return error_at(e, ERR_INPUT, place, "unknown %s '%s': expected %s or %s", what, name, names[r],
+                            names[role_mirror((Role)r)]);
+        nearest_try(&near, names[r]);
+    }
+    if (near.best) return nearest_error(&near, what, place, e);
+    return error_at(e, ERR_INPUT, place,
+                    "unknown %s '%.60s': expected pelvis, spine, chest, neck, head, or with left_ or right_: clavicle, "
+                    "upper_arm, forearm, hand, thigh, shin, foot, toe", what, name);
 }
 
 /* --- the file --- */

@@ -250,12 +250,11 @@ static double height_of(const Figure *figure, const Ring *ring) {
 
 bool check_envelope(const Garment *g, const Panel *panel, int *wrong, Why *why) {
     Figure figure = figure_reference();
-    bool all = panel->nrows == g->nrings;
-    for (int i = 0; i < panel->nrows; i++) all = all && panel->row[i].ring == i;
     *wrong = -1;
-    if (!all)
-        return refuse(why, "panel '%s' does not have all rings in their order, '%s' to '%s': they are one envelope",
-                      panel->name, g->ring[0].name, g->ring[g->nrings - 1].name);
+    for (int i = 0; i < g->nrings; i++)
+        if (i >= panel->nrows || panel->row[i].ring != i)
+            return refuse(why, "row %d of the panel '%s' must be on the ring '%s': each panel of an envelope has all "
+                          "rings, in their order", i + 1, panel->name, g->ring[i].name);
     for (int i = 0; i < panel->nrows; i++) {
         const Ring *ring = &g->ring[*wrong = panel->row[i].ring];
         if (!torso_or_leg(ring->part))

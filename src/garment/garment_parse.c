@@ -90,9 +90,8 @@ static bool read_ring_option(Ring *ring, int option, const Line *line, int i, Er
     case OPTION_TILT: return words_number(line, i, -180, 180, &ring->tilt, e);
     default:
         ring->has_size = true;
-        return words_number(line, i, 0, LENGTH_MAX, &ring->side, e) &&
-               words_number(line, i + 1, 0, LENGTH_MAX, &ring->front, e) &&
-               words_number(line, i + 2, 0, LENGTH_MAX, &ring->back, e);
+        return words_size(line, i, &ring->side, e) && words_size(line, i + 1, &ring->front, e) &&
+               words_size(line, i + 2, &ring->back, e);
     }
 }
 

@@ -112,9 +112,15 @@ bool words_number(const Line *line, int i, double low, double high, double *out,
     return (*out >= low && *out <= high) || text_error(line, i, e, "expected a number from %g to %g", low, high);
 }
 
-bool words_length(const Line *line, int i, double *out, Error *e) {
-    return words_number(line, i, -LENGTH_MAX, LENGTH_MAX, out, e);
+static bool length_from(double low, const Line *line, int i, double *out, Error *e) {
+    if (!text_real(line, i, out, e)) return false;
+    return (*out >= low && *out <= LENGTH_MAX) ||
+           text_error(line, i, e, "expected metres, from %g to %d", low, LENGTH_MAX);
 }
+
+bool words_length(const Line *line, int i, double *out, Error *e) { return length_from(-LENGTH_MAX, line, i, out, e); }
+
+bool words_size(const Line *line, int i, double *out, Error *e) { return length_from(0, line, i, out, e); }
 
 bool words_vector(const Line *line, int i, Vec3 *out, Error *e) {
     return words_length(line, i, &out->x, e) && words_length(line, i + 1, &out->y, e) &&
