@@ -4,10 +4,12 @@
 # can do. (Units, channels, names and other habits of files: tests/defects.sh.)
 . "$(dirname "$0")/lib.sh"
 
-garments="-g $root/garments/skirt.garment -g $root/garments/trousers.garment -g $root/garments/tshirt.garment"
 "$KITSUKE" walk --frames-per-step 6 --steps 2 -o walk.bvh || exit 1
-# shellcheck disable=SC2086  # several words
-dress() { "$KITSUKE" dress -q --no-times --format obj --topology fixed --detail 4 $garments "$@"; }
+g=$root/garments
+dress() {
+    "$KITSUKE" dress -q --no-times --format obj --topology fixed --detail 4 \
+        -g "$g/skirt.garment" -g "$g/trousers.garment" -g "$g/tshirt.garment" "$@"
+}
 dress walk.bvh -o plain
 
 # Awk: `root` moves the root of each frame (v[1..3] its place in cm, v[4] its turn about y).

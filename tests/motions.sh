@@ -3,9 +3,8 @@
 # through where people walk, run, jump and climb. Then what holds on any motion: memory, and every build's bytes.
 . "$(dirname "$0")/lib.sh"
 
-garments="-g $root/garments/skirt.garment -g $root/garments/trousers.garment -g $root/garments/tshirt.garment"
-# shellcheck disable=SC2086  # several words
-dress() { "$KITSUKE" dress -q --no-times $garments "$@"; }
+g=$root/garments
+dress() { "$KITSUKE" dress -q --no-times -g "$g/skirt.garment" -g "$g/trousers.garment" -g "$g/tshirt.garment" "$@"; }
 rows() { awk -F, '/^#/ || /^motion,/ { next } { print }' "$1/summary.csv"; }
 
 if [ -d "$KITSUKE_MOTIONS" ]; then

@@ -100,7 +100,7 @@ real=$KITSUKE_MOTIONS/cmu_02_03_run.amc
 if [ -f "$real" ]; then
     mkdir acclaim
     cp "$real" acclaim/x.amc
-    cp "${real%_03*}.asf" acclaim/y.asf
+    cat "${real%_03*}.asf" >acclaim/y.asf # which may be written, though the source may not
     skeleton() { # skeleton PATTERN ARGUMENT...: the last line of a resumed run
         pattern=$1
         shift
