@@ -428,11 +428,9 @@ static const Mistake mistakes[] = {
     {"garment g\nfollow envelope\nring a pelvis 1\nring b chest 1\npanel p\nrow a left front\nrow b left front\n", 4, 6,
      "'b' must lie below 'a'"},
     {"garment g\nfollow envelope\nring a pelvis 1\nring b pelvis 0\nring c left_shin 0\npanel p\nrow a left front\nrow "
-     "c left front\n",
-     6, 7, "row 2 of the panel 'p' must be on the ring 'b'"},
+     "c left front\n", 6, 7, "row 2 of the panel 'p' must be on the ring 'b'"},
     {"garment g\nfollow envelope\nring a pelvis 1\nring b pelvis 0\npanel p\nrow a left front\nrow b left front\nring "
-     "c left_shin 0\n",
-     8, 1, "must stand above its panels"},
+     "c left_shin 0\n", 8, 1, "must stand above its panels"},
     {"garment g\nfollow envelope\npatch s\n", 3, 1, "no rings to follow the envelope"},
 };
 
