@@ -58,4 +58,39 @@ like 'in folds corners have normals of their own' "$(creases squat-fixed/squat/[
 "$KITSUKE" dress turn.bvh -o flesh --format obj -q --frames 161:241:4 -g "$garments/skirt.garment"
 is 'bodies are whole too where their parts press on each other' "$(dark flesh/turn/body.*.obj | head -3)" ''
 like 'and some of their corners have normals of their own' "$(creases flesh/turn/body.*.obj)" '^[1-9]'
+
+# A vest, as garments/README.md tells of armholes and straps: two armholes, a neckline and a hem.
+cat >vest.garment <<END
+garment vest
+ring hem   pelvis 0.35 ease 0.025
+ring waist spine  0.40 ease 0.018
+ring chest chest  0.38 ease 0.015
+ring left_yoke_front chest 0.70 ease 0.012
+ring left_yoke_back  chest 0.70 ease 0.012
+ring left_strap      chest 1.00 size 0.030 0.001 0.001 shift 0.105 0.022 0
+move left_yoke_front.left  -0.035 0 0.04
+move left_yoke_front.front  0.060 0.02 -0.02
+move left_yoke_back.left   -0.035 0 -0.05
+move left_yoke_back.back    0.060 0.02 0.01
+panel left_front
+  row hem left front
+  row waist left front
+  row chest left front
+  row left_yoke_front left front
+  row left_strap left front right
+panel left_back
+  row hem left back
+  row waist left back
+  row chest left back
+  row left_yoke_back left back
+  row left_strap left front right
+seam left_front.bottom left_back.bottom
+collide left_front pelvis spine chest neck left_upper_arm
+collide left_back  pelvis spine chest neck left_upper_arm
+mirror left_ right_
+END
+ok 'a vest' "$KITSUKE" dress squat.bvh -o vest --format obj -q --strict --frames 10::40 -g vest.garment
+"$KITSUKE" verify vest >told 2>/dev/null
+is 'with all its openings' "$(by_garment borders)" 'vest:4 '
+is 'and no other' "$(by_garment cracks)" 'vest:0 '
 done_testing
