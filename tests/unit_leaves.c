@@ -47,6 +47,7 @@ static void sheet_is_the_surface(const char *name, Push *push, const Leaves *lea
         Vec3 plain = field_normal(&push->field, root, 0, sheet->place[v]);
         worst_normal = max_of(worst_normal, vec_dist(lattice_normal(l, root, sheet->place[v]), plain));
     }
+    OK(sheet->nedges <= lattice_edges(l), "%s: no more edges than there is room for (%d)", name, sheet->nedges);
     OK(moved == 0, "%s: %d vertices on the root patches, %d beside their leaves' grids (%d differ)", name,
        sheet->nvertices, sheet->nlone, moved);
     OK(worst_field < 1e-12 && worst_normal < 1e-9, "%s: displacement and normals too (%.2g, %.2g)", name, worst_field,

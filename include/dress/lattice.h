@@ -49,8 +49,10 @@ MUST_CHECK bool lattice_build(const Fit *fit, int detail, int depth, Arena *aren
 /* The number of cells of the deepest level, of all patches. */
 static inline int lattice_cells(const Lattice *l) { return l->fit->npatches << (2 * l->depth); }
 
-/* Triangles of a mesh that is split everywhere. It has no more than three times as many edges. */
+/* Triangles of a mesh that is split everywhere, and the most edges that any mesh can have: those of cells that share
+   none. */
 static inline int lattice_triangles(const Lattice *l) { return 2 * l->fit->npatches * l->side * l->side; }
+static inline int lattice_edges(const Lattice *l) { return lattice_cells(l) * l->detail * (3 * l->detail + 2); }
 
 /* Number of a place of a patch. */
 static inline int lattice_place(const Lattice *l, int patch, int i, int j) {

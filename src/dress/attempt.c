@@ -23,7 +23,7 @@ bool cloth_reserve(Cloth *c, const Fit *fit, const Lattice *lattice, Arena *aren
     if (!leaves_reserve(&c->leaves, lattice, arena, e) || !sheet_reserve(&c->sheet, lattice, arena, e) ||
         !morph_reserve(&c->morph, lattice, arena, e) || !push_reserve(&c->push, lattice, arena, e) ||
         !settle_reserve(&c->settler, lattice, arena, e) ||
-        !tester_reserve(&c->tester, most, 3 * triangles, triangles, fit->collide, arena, e))
+        !tester_reserve(&c->tester, most, lattice_edges(lattice), triangles, fit->collide, arena, e))
         return false;
     c->position = ARENA_NEW(arena, Vec3, places, e);
     c->moved = ARENA_NEW(arena, Vec3, places, e);

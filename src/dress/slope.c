@@ -12,7 +12,7 @@ static const double SHRINKS = 0.8; /* a vertex that moves towards its neighbour 
                                       way: cloth must not fold over */
 
 bool slopes_reserve(Slopes *s, const Lattice *lattice, Arena *arena, Error *e) {
-    int edges = 3 * lattice_triangles(lattice);
+    int edges = lattice_edges(lattice);
     *s = (Slopes){.slope = ARENA_NEW(arena, Slope, edges, e)};
     s->first_beside = ARENA_NEW(arena, int, lattice->nplaces + 1, e);
     s->beside = ARENA_NEW(arena, int, 2 * edges, e);

@@ -6,16 +6,16 @@
 #include <string.h>
 
 bool sheet_reserve(Sheet *s, const Lattice *lattice, Arena *arena, Error *e) {
-    int places = lattice->nplaces, triangles = lattice_triangles(lattice);
+    int places = lattice->nplaces, triangles = lattice_triangles(lattice), edges = lattice_edges(lattice);
     *s = (Sheet){.lattice = lattice};
     s->place = ARENA_NEW(arena, int, places, e);
     s->vertex = ARENA_NEW(arena, int, places, e);
     s->lone = ARENA_NEW(arena, int, places, e);
     s->triangle = ARENA_NEW(arena, Triangle, triangles, e);
     s->first_of_patch = ARENA_NEW(arena, int, lattice->fit->npatches + 1, e);
-    s->edge = ARENA_NEW(arena, Edge, 3 * triangles, e);
+    s->edge = ARENA_NEW(arena, Edge, edges, e);
     s->first_edge = ARENA_NEW(arena, int, places, e);
-    s->next_edge = ARENA_NEW(arena, int, 3 * triangles, e);
+    s->next_edge = ARENA_NEW(arena, int, edges, e);
     s->laid = ARENA_NEW(arena, unsigned char, lattice_cells(lattice), e);
     return s->place && s->vertex && s->lone && s->triangle && s->first_of_patch && s->edge && s->first_edge &&
            s->next_edge && s->laid;
