@@ -58,6 +58,32 @@ static void test_unknown_feet(void) {
     rig_close(&r);
 }
 
+/* From the canonical stance to a pose: all of it at the end, only the pelvis at the beginning. */
+static void way_to_a_pose(void) {
+    Rig r;
+    if (!OK(rig_open(&r, "motions/squat.bvh", NULL), "squat opens")) return;
+    Pose pose = rig_pose(&r, r.motion.nframes / 2);
+    Pose none = figure_pose_towards(&r.figure, &pose, 0), half = figure_pose_towards(&r.figure, &pose, 0.5);
+    Pose whole = figure_pose_towards(&r.figure, &pose, 1);
+    double off = 0, begun = 0, unequal = 0, deepest = 0, torn = 0;
+    for (int k = 0; k < ROLE_COUNT; k++) {
+        int up = role_parent((Role)k);
+        Vec3 start = r.figure.start[k];
+        double bend = turned(pose.bone[up].r, pose.bone[k].r), bend_half = turned(half.bone[up].r, half.bone[k].r);
+        off = max_of(off, turned(whole.bone[k].r, pose.bone[k].r));
+        off = max_of(off, vec_dist(rigid_apply(whole.bone[k], start), rigid_apply(pose.bone[k], start)));
+        begun = max_of(begun, turned(none.bone[k].r, pose.bone[ROLE_PELVIS].r));
+        torn = max_of(torn, vec_dist(rigid_apply(none.bone[k], start), rigid_apply(none.bone[up], start)));
+        unequal = max_of(unequal, fabs(bend_half - bend / 2));
+        deepest = max_of(deepest, bend);
+    }
+    OK(off < 1e-5, "all the way is the pose (%.2g off)", off);
+    OK(begun < 1e-5 && torn < 1e-12, "none of it the canonical stance at the pelvis (%.2g, %.2g)", begun, torn);
+    OK(unequal < 1e-4 && deepest > 30, "half of it bends joints half as far (%.2g of up to %.0f degrees)", unequal,
+       deepest);
+    rig_close(&r);
+}
+
 int main(void) {
     static const char *const files[] = {
         "motions/paper-walk.bvh", "motions/squat.bvh", "motions/turn.bvh", "tests/data/figure/lafan1.bvh",
@@ -79,6 +105,7 @@ int main(void) {
         OK(p.astray < 1e-4, "and point where these do (%.2g degrees off)", p.astray);
         rig_close(&r);
     }
+    way_to_a_pose();
     test_unknown_feet();
     return tap_done();
 }

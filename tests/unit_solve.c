@@ -61,7 +61,30 @@ static void rejected_attempts(void) {
     arena_free(&d.worn.of.scene.arena);
 }
 
+/* Legs through each other leave no room on any way there. Then the frame is what it is without one. */
+static void leads_in_vain(void) {
+    static Dressed d;
+    FrameStats stats;
+    Mesh mesh;
+    open(&d, "trousers");
+    Scene *s = &d.worn.of.scene;
+    Dresser *led = scene_dresser(s, (DressOptions){.split = SPLIT_UNIFORM, .detail = 5, .depth = 1});
+    Pose pose = figure_rest_pose();
+    scene_turn(s, &pose, ROLE_LEFT_THIGH, ROLE_LEFT_TOE, mat_axis_angle(vec(0, 0, -1), 18 * PI / 180));
+    FrameStats tried = scene_frame(s, led, &pose, 0, TIE_AFRESH, &mesh);
+    worn_pose(&d.worn, &pose, 1);
+    Wrong left = solve(&d, &stats);
+    bool same = mesh.nvertices == d.solver.cloth.sheet.nvertices && tried.inside == left.own.inside;
+    for (int v = 0; same && v < mesh.nvertices; v++)
+        same = vec_dist(mesh.position[v], d.solver.cloth.position[v]) == 0;
+    OK(same && left.own.inside > 0 && tried.sweeps > 2 * stats.sweeps,
+       "trousers of crossed legs that were led there in vain, in %d sweeps, are as without it, in %d", tried.sweeps,
+       stats.sweeps);
+    arena_free(&s->arena);
+}
+
 int main(void) {
     rejected_attempts();
+    leads_in_vain();
     return tap_done();
 }

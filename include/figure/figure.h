@@ -60,6 +60,9 @@ void figure_pose(const Figure *f, const Rigid *world, Pose *out);
 /* The pose in which every bone is where it stands in the canonical stance. */
 Pose figure_rest_pose(void);
 
+/* The pose that is that share (0..1) of the way from the canonical stance, with the pelvis where it is, to a pose. */
+Pose figure_pose_towards(const Figure *f, const Pose *pose, double share);
+
 /* How far two poses are apart: the largest distance between the two places of a bone's end, in statures. Finds T-pose
    first frames and teleports. */
 double figure_step(const Figure *f, const Pose *a, const Pose *b);

@@ -16,6 +16,9 @@ typedef enum {
 /* "pelvis", "left_upper_arm", ... */
 const char *role_name(Role role);
 
+/* The bone that a bone hangs on: of the pelvis, itself. */
+Role role_parent(Role role);
+
 /* The role of that name (length bytes), or ROLE_COUNT. */
 Role role_find(const char *name, int length);
 

@@ -4,16 +4,22 @@
      refine     which patches intersect, those are split in four (the paper's rule)
      solve      what the last frame displaced is carried along; leaves become one watertight mesh, which is pushed
                 off the body and tested as it will be written, until nothing is found
-     fill_mesh  normals, parameters and groups of what is written */
+     fill_mesh  normals, parameters and groups of what is written
+
+   Where no frame went before, cloth may not find its way into a deep squat. Then it is led there through poses between
+   (lead_in). */
 #include "dress/frame.h"
 
 #include "base/clock.h"
+#include "dress/bodypose.h"
 #include "dress/follow.h"
 #include "dress/literal.h"
 #include "dress/solve.h"
 #include "geometry/facing.h"
 
 enum { DETAIL_DEFAULT = 8, DEPTH_DEFAULT = 2 };
+enum { LEAD_STEPS = 24 };                /* poses through which cloth is led, */
+static const double LEAD_SECONDS = 1;    /* which follow each other as if all took this long */
 
 struct Dresser {
     DressOptions options;
@@ -21,6 +27,7 @@ struct Dresser {
     Follower follower;
     Lattice lattice;
     Patch *root;
+    BodyFrame between;      /* the body in a pose through which cloth is led */
     Classifier classifier;
     Leaves by_rule;         /* as the classification found them; the solver refines them further */
     Solver solver;
@@ -58,6 +65,7 @@ bool dresser_open(const Garment *garment, const Figure *figure, const Body *body
     int detail = options->detail ? options->detail : garment->detail ? garment->detail : DETAIL_DEFAULT;
     int depth = options->depth ? options->depth : DEPTH_DEFAULT;
     if (!fit_garment(garment, figure, body, arena, &d->fit, e) ||
+        !body_frame_init(&d->between, body, 1, arena, e) ||
         !follow_reserve(&d->follower, &d->fit, figure, body, arena, e) ||
         !lattice_build(&d->fit, detail, depth, arena, &d->lattice, e) ||
         !classifier_reserve(&d->classifier, &d->lattice, arena, e) ||
@@ -145,12 +153,16 @@ static void split_by_rule(Dresser *d, const BodyFrame *body, FrameStats *stats) 
 /* Split, move and repeat as the paper says, then the tests that all methods undergo. */
 static void frame_to_the_letter(Dresser *d, const BodyFrame *body, Tie tie, Mesh *mesh, FrameStats *stats) {
     Literal *l = &d->literal;
+    double start = clock_seconds();
+    *stats = (FrameStats){.restarted = tie != TIE_GOES_ON};
+    follow_pose(&d->follower, &body->pose, d->root);
+    stats->global_s = clock_lap(&start);
     literal_frame(l, d->root, body, tie, d->options.split, stats);
     if (mesh) {
         *mesh = l->mesh;
         set_groups(d, l->first_of_patch, mesh);
     }
-    double start = clock_seconds();
+    start = clock_seconds();
     Wrong w = tester_test(&d->solver.cloth.tester, body, &l->mesh, NULL);
     stats->test_s += clock_seconds() - start;
     stats->pairs_all += w.count.pairs_all;
@@ -158,20 +170,67 @@ static void frame_to_the_letter(Dresser *d, const BodyFrame *body, Tie tie, Mesh
     tell(&w, stats);
 }
 
-void dresser_frame(Dresser *d, const BodyFrame *body, double dt, Tie tie, Mesh *mesh, FrameStats *stats) {
+static Wrong deform(Dresser *d, const BodyFrame *body, double dt, Tie tie, FrameStats *stats) {
     *stats = (FrameStats){.restarted = tie != TIE_GOES_ON};
     double start = clock_seconds();
     follow_pose(&d->follower, &body->pose, d->root);
     stats->global_s = clock_seconds() - start;
+    split_by_rule(d, body, stats);
+    return solver_frame(&d->solver, body, d->root, dt, tie, d->options.method == METHOD_GLOBAL, stats);
+}
+
+static void add_costs(FrameStats *to, const FrameStats *from) {
+    to->pairs_all += from->pairs_all;
+    to->pairs_tested += from->pairs_tested;
+    to->sweeps += from->sweeps;
+    to->global_s += from->global_s;
+    to->test_s += from->test_s;
+    to->push_s += from->push_s;
+    to->mesh_s += from->mesh_s;
+}
+
+/* The same as deform, but cloth is led there from the canonical stance through poses between. */
+static Wrong lead_in(Dresser *d, const BodyFrame *body, FrameStats *stats) {
+    FrameStats spent = {0}, of_step;
+    d->between.unit = body->unit;
+    d->between.vectors = body->vectors;
+    for (int k = 1; k < LEAD_STEPS; k++) {
+        Pose pose = figure_pose_towards(d->follower.figure, &body->pose, (double)k / LEAD_STEPS);
+        body_frame_pose(&d->between, &pose);
+        deform(d, &d->between, LEAD_SECONDS / LEAD_STEPS, k == 1 ? TIE_AFRESH : TIE_GOES_ON, &of_step);
+        add_costs(&spent, &of_step);
+    }
+    Wrong w = deform(d, body, LEAD_SECONDS / LEAD_STEPS, TIE_GOES_ON, stats);
+    stats->restarted = true;
+    add_costs(stats, &spent);
+    return w;
+}
+
+/* Where nothing was before, and something shows. If leading in does not help, all is as it was. */
+static Wrong try_to_lead_in(Dresser *d, const BodyFrame *body, double dt, Wrong w, FrameStats *stats) {
+    FrameStats plain = *stats, again;
+    Wrong led = lead_in(d, body, stats);
+    if (residual_total(&led.own) < residual_total(&w.own)) {
+        add_costs(stats, &plain);
+        return led;
+    }
+    add_costs(&plain, stats);
+    w = deform(d, body, dt, TIE_AFRESH, &again);
+    *stats = plain;
+    return w;
+}
+
+void dresser_frame(Dresser *d, const BodyFrame *body, double dt, Tie tie, Mesh *mesh, FrameStats *stats) {
     if (d->options.method == METHOD_PAPER) {
         frame_to_the_letter(d, body, tie, mesh, stats);
         return;
     }
-    split_by_rule(d, body, stats);
-    Wrong w = solver_frame(&d->solver, body, d->root, dt, tie, d->options.method == METHOD_GLOBAL, stats);
+    Wrong w = deform(d, body, dt, tie, stats);
+    bool may_lead_in = tie == TIE_AFRESH && d->options.method == METHOD_PUSH;
+    if (may_lead_in && residual_total(&w.own) > 0) w = try_to_lead_in(d, body, dt, w, stats);
     tell(&w, stats);
 
-    start = clock_seconds();
+    double start = clock_seconds();
     if (mesh) fill_mesh(d, mesh);
     stats->mesh_s += clock_seconds() - start;
     stats->cells = leaves_count(&d->solver.cloth.leaves);

@@ -200,6 +200,21 @@ Pose figure_rest_pose(void) {
     return pose;
 }
 
+/* Each bone's turn and shift against its parent is that share of what it is in the pose. */
+Pose figure_pose_towards(const Figure *f, const Pose *pose, double share) {
+    Pose out;
+    out.bone[ROLE_PELVIS] = pose->bone[ROLE_PELVIS];
+    for (int r = ROLE_PELVIS + 1; r < ROLE_COUNT; r++) {
+        Role p = role_parent((Role)r);
+        Rigid by = rigid_mul(rigid_inverse(pose->bone[p]), pose->bone[r]);
+        Vec3 joint = f->start[r], shift = vec_sub(rigid_apply(by, joint), joint);
+        Mat3 turn = mat_nlerp(mat_identity(), by.r, share);
+        Vec3 at = vec_mad(joint, shift, share);
+        out.bone[r] = rigid_mul(out.bone[p], (Rigid){turn, vec_sub(at, mat_apply(turn, joint))});
+    }
+    return out;
+}
+
 double figure_step(const Figure *f, const Pose *a, const Pose *b) {
     double most = 0;
     for (int r = 0; r < ROLE_COUNT; r++) {

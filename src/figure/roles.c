@@ -37,6 +37,12 @@ Role role_mirror(Role role) {
     return (Role)((int)role + way * (limb < 3 ? arm : leg));
 }
 
+Role role_parent(Role role) {
+    static const Role root[] = {ROLE_PELVIS, ROLE_CHEST, ROLE_CHEST, ROLE_PELVIS, ROLE_PELVIS};
+    bool begins = role == ROLE_PELVIS || role_limb(role) != role_limb((Role)((int)role - 1));
+    return begins ? root[role_limb(role)] : (Role)((int)role - 1);
+}
+
 Role role_find(const char *name, int length) {
     for (int r = 0; r < ROLE_COUNT; r++)
         if ((int)strlen(names[r]) == length && memcmp(names[r], name, (size_t)length) == 0) return (Role)r;
