@@ -5,6 +5,7 @@
 #include "base/text.h"
 
 #include <inttypes.h>
+#include <limits.h>
 #include <sched.h>
 #include <stdlib.h>
 #include <string.h>
@@ -117,7 +118,7 @@ static void errors_come_first(void) {
     OK(strcmp(e.text, "first?[2J") == 0, "and no byte of it is a command to a terminal");
     error_clean(shown, sizeof shown, "0123456789");
     OK(strcmp(shown, "0123456") == 0, "texts end where their room does");
-    OK(error_shown(3) == 3 && error_shown(1L << 40) == 40, "of long words the beginning is shown");
+    OK(error_shown(3) == 3 && error_shown(LONG_MAX) == 40, "of long words the beginning is shown");
 }
 
 static void memory_is_bounded(void) {
