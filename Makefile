@@ -4,9 +4,10 @@ VERSION = 0.1.0
 BUILD  ?= release
 PREFIX ?= /usr/local
 CC     ?= cc
-# A C compiler asks for its own C++ compiler: the sanitizers of two do not mix.
+# A C compiler asks for its own C++ compiler: the sanitizers of two do not mix. Only its name tells, not its folder's.
 ifeq ($(origin CXX),default)
-CXX     = $(if $(findstring clang,$(CC)),$(subst clang,clang++,$(CC)),c++)
+PLUS    = $(foreach w,$(CC),$(patsubst %$(notdir $w),%,$w)$(subst clang,clang++,$(notdir $w)))
+CXX     = $(if $(findstring clang,$(notdir $(CC))),$(PLUS),c++)
 endif
 
 # A number of things that an enum names is a number: clang 19 and later would have each cast.

@@ -11,6 +11,10 @@ like 'make help tells of every target' "$(run_make help | awk '{ printf "%s ", $
 ok 'a build that is none of the three is refused' must_fail 2 run_make BUILD=fast
 like 'by name' "$(cat err)" "BUILD must be release, debug or san, not 'fast'"
 
+like 'clang, wherever it is, asks for its own C++ compiler' \
+    "$(MAKEFLAGS='' run_make -n V=1 OUT="$scratch/out" CC='ccache /opt/clang+llvm/bin/clang-18 -m64')" \
+    '^ccache /opt/clang\+llvm/bin/clang\+\+-18 -m64 .*-c src/files/drc\.cpp'
+
 if [ "$KITSUKE" = "$root/build/$KITSUKE_BUILD/kitsuke" ]; then
     ok 'make install, where names have blanks' run_make install DESTDIR="$scratch/a stage" PREFIX='/my opt'
     there="$scratch/a stage/my opt" share="$scratch/a stage/my opt/share/kitsuke"
