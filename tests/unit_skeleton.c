@@ -75,7 +75,7 @@ static void test_positions(void) {
     NEAR(vec_dist(pose_one(joint("a", -1, offset, 4, all, 0), row, true).t, vec(11, 22, 33)), 0, 0, "positions add");
     NEAR(vec_dist(pose_one(joint("a", -1, offset, 1, height, 0), five, false).t, vec(1, 5, 3)), 0, 0,
          "one of them replaces one");
-    NEAR(vec_dist(pose_one(joint("a", -1, offset, 0, NULL, 0), NULL, false).t, offset), 0, 0, "none leaves the OFFSET");
+    NEAR(vec_dist(pose_one(joint("a", -1, offset, 0, NULL, 0), row, false).t, offset), 0, 0, "none leaves the OFFSET");
 }
 
 /* Root turned a quarter about z, elbow about x; an end site follows its parent. */

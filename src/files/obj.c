@@ -153,8 +153,7 @@ static char *put_crease(char *at, int number, int normal, int kind) {
 }
 
 static bool put_faces(ObjWriter *w, const Mesh *mesh, Error *e) {
-    int group = 0;
-    const Crease *crease = mesh->crease, *end = crease + mesh->ncreases;
+    int group = 0, crease = 0;
     if (!make_corners(w, mesh->nvertices, kind_of(mesh), e)) return false;
     for (int t = 0; t < mesh->ntriangles; t++) {
         for (; group < mesh->ngroups && mesh->group[group].first <= t; group++)
@@ -164,8 +163,8 @@ static bool put_faces(ObjWriter *w, const Mesh *mesh, Error *e) {
         *at++ = 'f';
         for (int c = 0; c < 3; c++) {
             const struct ObjCorner *corner = &w->corner[mesh->triangle[t].v[c]];
-            if (crease < end && crease->corner == 3 * t + c) {
-                at = put_crease(at, mesh->triangle[t].v[c] + 1, crease++->normal + 1, w->corner_kind);
+            if (crease < mesh->ncreases && mesh->crease[crease].corner == 3 * t + c) {
+                at = put_crease(at, mesh->triangle[t].v[c] + 1, mesh->crease[crease++].normal + 1, w->corner_kind);
                 continue;
             }
             memcpy(at, corner->text, CORNER_ROOM);
