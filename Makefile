@@ -5,7 +5,7 @@ BUILD  ?= release
 PREFIX ?= /usr/local
 CC     ?= cc
 # A C compiler asks for its own C++ compiler: the sanitizers of two do not mix. Only its name tells, not its folder's.
-ifeq ($(origin CXX),default)
+ifneq ($(filter default undefined,$(origin CXX)),)
 PLUS    = $(foreach w,$(CC),$(patsubst %$(notdir $w),%,$w)$(subst clang,clang++,$(notdir $w)))
 CXX     = $(if $(findstring clang,$(notdir $(CC))),$(PLUS),c++)
 endif

@@ -15,6 +15,9 @@ like 'clang, wherever it is, asks for its own C++ compiler' \
     "$(MAKEFLAGS='' run_make -n V=1 OUT="$scratch/out" CC='ccache /opt/clang+llvm/bin/clang-18 -m64')" \
     '^ccache /opt/clang\+llvm/bin/clang\+\+-18 -m64 .*-c src/files/drc\.cpp'
 
+like 'make -R, which knows no compiler, asks for c++' \
+    "$(unset CC CXX; MAKEFLAGS='' run_make -R -n V=1 OUT="$scratch/out")" '^c\+\+ .*-c src/files/drc\.cpp'
+
 if [ "$KITSUKE" = "$root/build/$KITSUKE_BUILD/kitsuke" ]; then
     ok 'make install, where names have blanks' run_make install DESTDIR="$scratch/a stage" PREFIX='/my opt'
     there="$scratch/a stage/my opt" share="$scratch/a stage/my opt/share/kitsuke"
