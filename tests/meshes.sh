@@ -93,4 +93,32 @@ ok 'a vest' "$KITSUKE" dress squat.bvh -o vest --format obj -q --strict --frames
 "$KITSUKE" verify vest >told 2>/dev/null
 is 'with all its openings' "$(by_garment borders)" 'vest:4 '
 is 'and no other' "$(by_garment cracks)" 'vest:0 '
+
+# Shorts that say nothing of how cloth lies in the fold of a hip.
+cat >shorts.garment <<END
+garment shorts
+detail 4
+ring waist       pelvis     1.30 ease 0.008
+ring hip         pelvis     0.50 ease 0.020
+ring left_crotch left_thigh 0.30 ease 0.020
+ring left_hem    left_thigh 0.62 ease 0.025
+panel left_front
+  row waist       left front
+  row hip         left front
+  row left_crotch left front right
+  row left_hem    left front right
+panel left_back
+  row waist       left back
+  row hip         left back
+  row left_crotch left back right
+  row left_hem    left back right
+seam left_front.start left_back.start
+collide waist..left_crotch    spine pelvis left_thigh right_thigh
+collide left_crotch..left_hem pelvis left_thigh left_shin
+mirror left_ right_
+join left_crotch.right right_crotch.left
+pin waist
+END
+ok 'shorts without bindings' "$KITSUKE" dress squat.bvh -o shorts --format none -q --strict --frames ::20 \
+    -g shorts.garment
 done_testing

@@ -27,6 +27,34 @@ static void folds_are_mitres(void) {
     arena_free(&s.arena);
 }
 
+static double weight_of(const Binding *b, Role bone) {
+    double weight = 0;
+    for (int k = 0; k < b->n; k++) weight += b->bone[k] == bone ? b->weight[k] : 0;
+    return weight;
+}
+
+/* A ring half-way up the pelvis that nothing binds goes with the thighs by three tenths, at a side with that side's. */
+static void hips_go_with_thighs(void) {
+    enum { HIP = 1 };
+    Scene s;
+    Fit fit;
+    scene_open(&s, "trousers");
+    for (int k = 0; k < STATION_COUNT; k++) s.garment->ring[HIP].binding[k].n = 0;
+    need(&s, fit_garment(s.garment, &s.figure, &s.body, &s.arena, &fit, &s.error));
+    const FitNode *hip = fit.node + HIP * STATION_COUNT, *waist = fit.node;
+    double off = 0, of_waist = 0;
+    for (int k = 0; k < STATION_COUNT; k++) {
+        double left = k == STATION_LEFT ? 0.3 : k == STATION_RIGHT ? 0 : 0.15;
+        off = max_of(off, fabs(weight_of(&hip[k].binding, ROLE_LEFT_THIGH) - left));
+        off = max_of(off, fabs(weight_of(&hip[k].binding, ROLE_RIGHT_THIGH) - (0.3 - left)));
+        off = max_of(off, fabs(weight_of(&hip[k].binding, ROLE_PELVIS) - 0.7));
+        of_waist = max_of(of_waist, fabs(weight_of(&waist[k].binding, ROLE_PELVIS) - 1));
+    }
+    OK(off < 1e-12 && of_waist == 0, "hips that nothing binds go partly with the thighs, a waist does not (%g, %g off)",
+       off, of_waist);
+    arena_free(&s.arena);
+}
+
 /* Where all places of the lattice are in the pose that was followed last. In the scene's arena. */
 static Vec3 *places_now(Specimen *c) {
     Vec3 *at = ARENA_NEW(&c->scene.arena, Vec3, c->lattice.nplaces, &c->scene.error);
@@ -235,6 +263,7 @@ static void sides_of_a_skirt_stay_at_the_sides(void) {
 
 int main(void) {
     folds_are_mitres();
+    hips_go_with_thighs();
     raised_arms_stretch_little();
     cloth_rides_up_round_the_seat();
     waists_stay_between_belly_and_thigh();

@@ -100,10 +100,19 @@ static Vec3 station_rest(const Tailor *t, int r, Station s) {
     return vec_add(p, by_axis(t->g->ring[r].move[s], t->measure[r]));
 }
 
-/* The bones that a station follows: those of its `bind`, else the part that the ring is on. */
+/* The bones that a station follows without a `bind`: the part that the ring is on. But cloth on the pelvis lies in the
+   fold of a hip only if it goes partly with the thigh, the more the lower it is. */
+static Binding own_binding(const Ring *ring, Station s) {
+    static const double WITH_THIGHS = 0.6; /* share at the pelvis's lower end; none at its upper end */
+    double share = ring->part == ROLE_PELVIS ? WITH_THIGHS * clamp(1 - ring->at, 0, 1) : 0;
+    if (share <= 0) return (Binding){.n = 1, .bone = {ring->part}, .weight = {1}};
+    if (s == STATION_LEFT) return (Binding){2, {ROLE_PELVIS, ROLE_LEFT_THIGH}, {1 - share, share}};
+    if (s == STATION_RIGHT) return (Binding){2, {ROLE_PELVIS, ROLE_RIGHT_THIGH}, {1 - share, share}};
+    return (Binding){3, {ROLE_PELVIS, ROLE_LEFT_THIGH, ROLE_RIGHT_THIGH}, {1 - share, share / 2, share / 2}};
+}
+
 static Binding binding_or_own(const Ring *ring, Station s) {
-    if (ring->binding[s].n > 0) return ring->binding[s];
-    return (Binding){.n = 1, .bone = {ring->part}, .weight = {1}};
+    return ring->binding[s].n > 0 ? ring->binding[s] : own_binding(ring, s);
 }
 
 /* Mean of two bindings. If it names more than BINDING_MAX bones, those with the largest weights stay. */
