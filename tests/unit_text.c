@@ -118,6 +118,12 @@ static void errors_come_first(void) {
     OK(strcmp(e.text, "first?[2J") == 0, "and no byte of it is a command to a terminal");
     error_clean(shown, sizeof shown, "0123456789");
     OK(strcmp(shown, "0123456") == 0, "texts end where their room does");
+    char line[300];
+    Error cut = {0};
+    memset(line, 'x', sizeof line);
+    error_at(&cut, ERR_INPUT, (Place){"f", 1, 1000, line, sizeof line}, "behind the end");
+    OK(cut.caret >= 0 && cut.caret <= (int)strlen(cut.source) && strlen(cut.source) < sizeof cut.source,
+       "a place behind the end of its line is the end (%d of %zu)", cut.caret, strlen(cut.source));
     OK(error_shown(3) == 3 && error_shown(LONG_MAX) == 40, "of long words the beginning is shown");
 }
 

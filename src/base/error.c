@@ -17,6 +17,7 @@ void error_clean(char *out, size_t n, const char *text) {
 static void keep_source(Error *e, Place place) {
     if (!place.source || place.source_length <= 0) return;
     int length = place.source_length, at = place.column > 0 ? place.column - 1 : 0;
+    if (at > length) at = length; /* the line was longer when it was read */
     int room = (int)sizeof e->source - 1, from = 0;
     if (length > room && at > room / 2) from = at - room / 2;
     int n = length - from < room ? length - from : room;
