@@ -177,6 +177,7 @@ static const Case skeletons[] = {
      "two bones are named 'a'", 0, 23, 7},
     {"a bone without a name or an end", HEAD ROOT ":bonedata\n" BONE("a") " begin\n length 1\n:hierarchy\nroot a\n",
      "a bone without a name", 0, 22, 2},
+    {"a bone without a name behind the tree", ASF ":bonedata\n begin\n length 1\n", "a bone without a name", 0, 49, 2},
     {"a bone without a name", HEAD ROOT ":bonedata\n begin\n length 1\n end\n", "a bone without a name", 0, 17, 2},
     {"an unknown dof", HEAD ROOT ":bonedata\n begin\n name a\n dof rx rw\n end\n",
      "expected tx ty tz rx ry rz or l, found 'rw'", 0, 17, 9},

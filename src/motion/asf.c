@@ -178,13 +178,17 @@ static Stream *at_part(Asf *a, int i) {
     return &a->in;
 }
 
+static bool is_named(Asf *a, int i, Error *e) {
+    return a->part[i].bone.name || stream_error(at_part(a, i), e, "a bone without a name");
+}
+
 /* Called when all bones are known: sorts them by name. Until the tree is built, Bone.joint is the index of the part. */
 static bool sort_bones(Asf *a, Error *e) {
     Acclaim *k = a->acclaim;
     if (!(k->bone = ARENA_NEW(a->o->arena, Bone, a->nparts, e))) return false;
     for (k->nbones = 0; k->nbones < a->nparts; k->nbones++) {
         Bone *b = &a->part[k->nbones].bone;
-        if (!b->name) return stream_error(at_part(a, k->nbones), e, "a bone without a name");
+        if (!is_named(a, k->nbones, e)) return false;
         b->joint = k->nbones;
         k->bone[k->nbones] = *b;
     }
@@ -343,8 +347,9 @@ static bool build_joints(Asf *a, Error *e) {
     for (int i = 0; i >= 0; i = walk(a, i))
         if (!add_joint(a, i, joint, &njoints, e)) return false;
     for (int i = 0; i < a->nparts; i++)
-        if (a->part[i].joint < 0)
-            return stream_error(at_part(a, i), e, "bone '%.60s' has no place in the hierarchy", a->part[i].bone.name);
+        if (a->part[i].joint < 0) /* it may stand behind the hierarchy, and be told nothing of but `begin` */
+            return is_named(a, i, e) && stream_error(at_part(a, i), e, "bone '%.60s' has no place in the hierarchy",
+                                                     a->part[i].bone.name);
     for (int i = 0; i < a->acclaim->nbones; i++) {
         Bone *b = &a->acclaim->bone[i];
         const Part *p = &a->part[b->joint];
