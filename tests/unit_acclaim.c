@@ -156,6 +156,7 @@ static const Case motions[] = {
     {"no frames", ":FULLY-SPECIFIED\n:DEGREES\n", "no complete frame", 0, 0, 0},
     {"a rate that is none", ":SAMPLES-PER-SECOND fast\n1\n" VALUES, "expected a number, found 'fast'", 0, 1, 21},
     {"a rate of nothing", ":DEGREES\n:SAMPLES-PER-SECOND\n1\n" VALUES, NULL, 1, 0, 0},
+    {"a rate of next to nothing", ":SAMPLES-PER-SECOND 1e-320\n1\n" VALUES, "is not between", 0, 1, 21},
     {"a rate of zero", ":SAMPLES-PER-SECOND 0\n1\n" VALUES, "not positive", 0, 1, 21},
     {"a skeleton for a motion", ASF, "an ASF skeleton without a motion", 0, 2, 1},
 };

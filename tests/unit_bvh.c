@@ -99,6 +99,8 @@ static const Case lines[] = {
     {"blank lines first", "\n \n" FRAMES("1") "1 2 3 4\n", 1, NULL, 0, 0, 4},
     {"time 0", HEAD "MOTION\nFrames: 1\nFrame Time: 0\n1 2 3 4\n", 0, "frame time is not positive", 18, 13, 0},
     {"time below 0", HEAD "MOTION\nFrames: 1\nFrame Time: -0.01\n1 2 3 4\n", 0, "not positive", 18, 13, 0},
+    {"time denormal", HEAD "MOTION\nFrames: 1\nFrame Time: 1e-320\n1 2 3 4\n", 0, "is not between", 18, 13, 0},
+    {"time of years", HEAD "MOTION\nFrames: 1\nFrame Time: 1e9\n1 2 3 4\n", 0, "1e+09 seconds is not", 18, 13, 0},
     {"no time", HEAD "MOTION\nFrames: 1\n1 2 3 4\n", 0, "expected 'Frame Time:'", 18, 1, 0},
     {"time nan", HEAD "MOTION\nFrames: 1\nFrame Time: nan\n1 2 3 4\n", 0, "the frame time is 'nan'", 18, 13, 0},
     {"1 frame per second", HEAD "MOTION\nFrames: 1\nFrame Time: 1.0\n1 2 3 4\n", 1,

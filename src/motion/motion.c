@@ -14,6 +14,9 @@
 
 enum { JOINTS_DEFAULT = 10000, FRAMES_DEFAULT = 100000000, STRIDE_FIRST = 16 };
 
+/* Frame times outside are none: --fps takes 0.001 to 100000 frames a second too. */
+static const double frame_time_least = 1e-5, frame_time_most = 1000;
+
 /* Frame times outside are suspected to be a mistake: 480 and 5 frames per second. */
 static const double frame_time_low = 1.0 / 480, frame_time_high = 1.0 / 5;
 
@@ -148,6 +151,9 @@ bool source_rate(Opening *o, double frame_time, Error *e) {
         return true;
     }
     if (!(frame_time > 0)) return stream_error(&o->in, e, "frame time is not positive; give the rate with --fps");
+    if (!(frame_time >= frame_time_least && frame_time <= frame_time_most))
+        return stream_error(&o->in, e, "frame time of %g seconds is not between %g and %g; give the rate with --fps",
+                            frame_time, frame_time_least, frame_time_most);
     if (frame_time < frame_time_low * 0.999 || frame_time > frame_time_high * 1.001)
         stream_note(&o->in, o->notes, "unlikely frame time of %g seconds (%g frames per second); --fps overrides it",
                     frame_time, 1 / frame_time);
