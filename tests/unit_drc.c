@@ -143,6 +143,31 @@ static void test_refusals(void) {
     arena_free(&arena);
 }
 
+/* The least x of the mesh stands as a float in the file; here it becomes another number. */
+static void test_places(void) {
+    static const float others[] = {NAN, INFINITY, 1e13f};
+    static Wave wave;
+    static char bytes[1 << 16];
+    make_wave(&wave);
+    wave.position[0].x = -1.2345678;
+    float least = (float)wave.position[0].x;
+    Error e = {0};
+    bool good = drc_write(&writer, in_folder("a.drc"), &wave.mesh, 1, &(DrcOptions){0}, NULL, &e);
+    size_t n = good ? load(in_folder("a.drc"), bytes, sizeof bytes) : 0, at = 0;
+    while (at + sizeof least <= n && memcmp(bytes + at, &least, sizeof least) != 0) at++;
+    OK(at + sizeof least <= n, "the least x stands in the file");
+    for (size_t k = 0; at + sizeof least <= n && k < sizeof others / sizeof *others; k++) {
+        Arena arena = {0};
+        Mesh m;
+        e = (Error){0};
+        memcpy(bytes + at, &others[k], sizeof others[k]);
+        folder_put("b.drc", bytes, n);
+        OK(!drc_read(in_folder("b.drc"), &arena, &m, &e) && e.kind == ERR_INPUT, "%g is refused: %s",
+           (double)others[k], e.text);
+        arena_free(&arena);
+    }
+}
+
 static void test_cut(void) {
     static char data[20000];
     size_t n = load(in_folder("a.drc"), data, sizeof data);
@@ -196,6 +221,7 @@ int main(void) {
     test_same_bytes();
     test_again();
     test_refusals();
+    test_places();
     test_cut();
     folder_remove();
     drc_writer_free(&writer);

@@ -199,6 +199,7 @@ static void test_obj_parse(void) {
         {"v 0 0 1.5y\n", "expected a number, found '1.5y'", 1, 7},
         {"v 0 0 nan\n", "expected a number, found 'nan'", 1, 7},
         {"v 0 0 1e999\n", "expected a number, found '1e999'", 1, 7},
+        {"v 0 -1e13 1\n", "number out of range", 1, 5},
         {"", "no vertices", 0, 0},
         {"hello\n", "no vertices", 0, 0},
     };

@@ -29,6 +29,10 @@ typedef struct {
     Crease *crease;
 } Mesh;
 
+/* Coordinates of meshes that are read are at most so large: of much larger ones the products in predicates would
+   overflow, and what meets could not be told. */
+#define MESH_REACH 1e12
+
 /* The double that a reader gets from the text "%.6f" of x: the one nearest to round(x * 1e6) / 1e6 (for |x| < 1e9;
    never -0). */
 double mesh_snap(double x);

@@ -163,6 +163,18 @@ static bool take_vectors(const draco::PointAttribute *attribute, uint32_t n, Are
     return true;
 }
 
+/* Written so that NaN fails. */
+static bool is_within(const Vec3 &p) {
+    return std::fabs(p.x) <= MESH_REACH && std::fabs(p.y) <= MESH_REACH && std::fabs(p.z) <= MESH_REACH;
+}
+
+static bool check_places(const Mesh *mesh, const char *path, Error *e) {
+    for (int i = 0; i < mesh->nvertices; i++)
+        if (!is_within(mesh->position[i]))
+            return error_set(e, ERR_INPUT, "'%s' has a vertex with a coordinate out of range", path);
+    return true;
+}
+
 static bool take_uv(const draco::PointAttribute *attribute, uint32_t n, Arena *arena, Mesh *out, Error *e) {
     double *u = ARENA_NEW(arena, double, n, e), *w = ARENA_NEW(arena, double, n, e);
     if (!u || !w) return false;
@@ -204,7 +216,7 @@ bool drc_read(const char *path, Arena *arena, Mesh *out, Error *e) try {
         return error_set(e, ERR_INPUT, "'%s' has no vertices", path);
     uint32_t n = mesh.num_points();
     out->nvertices = int(n);
-    return take_vectors(position, n, arena, &out->position, e) &&
+    return take_vectors(position, n, arena, &out->position, e) && check_places(out, path, e) &&
            (!normal || take_vectors(normal, n, arena, &out->normal, e)) && (!uv || take_uv(uv, n, arena, out, e)) &&
            take_triangles(mesh, arena, out, path, e);
 } catch (const std::exception &problem) {

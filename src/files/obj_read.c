@@ -89,6 +89,7 @@ static bool take_number(Cursor *c, double *out, Error *e) {
     if (text_number(c->at, end, out) != end || !isfinite(*out))
         return error_at(e, ERR_INPUT, text_place(c, c->at), "expected a number, found '%.*s'", error_shown(end - c->at),
                         c->at);
+    if (fabs(*out) > MESH_REACH) return error_at(e, ERR_INPUT, text_place(c, c->at), "number out of range");
     c->at = end;
     return true;
 }
