@@ -82,6 +82,8 @@ refuses() { # refuses PATTERN ARGUMENT...
     must_fail 3 dress in/walk2.bvh -o bounds "$@" && says "$pattern" && [ ! -e bounds/walk2 ]
 }
 ok '--max-frames refuses' refuses 'in/walk2.bvh:[0-9]+:9: error: 8 frames are more than the limit of 7' --max-frames 7
+ok 'and what --rate makes of them' refuses "'in/walk2.bvh' has [0-9]+ frames at 1000 a second, more .* limit of 8" \
+    --max-frames 8 --rate 1000
 ok '--max-joints: so is one of more joints' refuses 'more than 5 joints' --max-joints 5
 ok 'limits that are just kept' dress in/walk2.bvh -o bounds --max-frames 8 --max-joints 100
 ok '--max-memory: exit 3' must_fail 3 dress in/walk2.bvh -o memory --max-memory 1

@@ -23,7 +23,7 @@ typedef struct Take Take;
 int take_length(const Motion *m, double rate);
 
 /* The span with its gaps filled, 1 <= first, last <= length, 1 <= step. ERR_USAGE where it begins
-   behind the motion's end. */
+   behind the motion's end, ERR_INPUT where a rate makes more frames of the motion than its options allow. */
 MUST_CHECK bool take_span(const Motion *m, const FrameSpan *span, double rate, FrameSpan *out, Error *e);
 
 /* rate 0: the motion's own. ERR_USAGE for a span that holds no frame. Memory from arena, as

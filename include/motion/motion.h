@@ -24,6 +24,7 @@ typedef struct {
     Skeleton skeleton;
     int nframes;                /* complete frames, at least 1 */
     double frame_time;          /* seconds, > 0 */
+    int max_frames;             /* that the options allow, at any rate */
     bool has_frame_time;        /* false: the file (an AMC, mostly) says nothing, 1/120 s is assumed */
     double file_unit;           /* metres per file unit if the file says so (ASF), else 0 */
     MotionSource *source;

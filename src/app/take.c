@@ -114,6 +114,9 @@ int take_length(const Motion *m, double rate) {
 
 bool take_span(const Motion *m, const FrameSpan *span, double rate, FrameSpan *out, Error *e) {
     int total = take_length(m, rate);
+    if (rate > 0 && m->max_frames > 0 && total > m->max_frames) /* the file's own number was looked at by its reader */
+        return error_set(e, ERR_INPUT, "'%s' has %d frames at %g a second, more than the limit of %d", m->path, total,
+                         rate, m->max_frames);
     out->first = span->first ? span->first : 1;
     out->last = span->last && span->last < total ? span->last : total;
     out->step = span->step ? span->step : 1;

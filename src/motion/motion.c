@@ -198,6 +198,7 @@ bool motion_open(const char *path, const MotionOptions *options, Arena *arena, N
                  .source = source};
     o.max_joints = options->max_joints > 0 ? options->max_joints : JOINTS_DEFAULT;
     o.max_frames = options->max_frames > 0 ? options->max_frames : FRAMES_DEFAULT;
+    out->max_frames = o.max_frames;
     bool good = source_file(path, &source->fd, e) && stream_open(&o.in, source->fd, source->name, &scratch, e) &&
                 read_format(&o, e) && finish(&o, e);
     arena_free(&scratch);
