@@ -135,6 +135,10 @@ struct dirent *readdir(DIR *folder) {
     return NULL;
 }
 
+/* With _FILE_OFFSET_BITS=64 programs call these, which on machines of 64 bits are the same. */
+int open64(const char *path, int flags, ...) __attribute__((alias("open")));
+struct dirent64 *readdir64(DIR *folder) { return (struct dirent64 *)readdir(folder); }
+
 /* A stream's writes are the C library's own; behind this one they are ours. */
 static ssize_t cookie_write(void *cookie, const char *data, size_t n) {
     int fd = (int)(long)cookie;

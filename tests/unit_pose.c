@@ -67,7 +67,7 @@ static void way_to_a_pose(void) {
     Pose whole = figure_pose_towards(&r.figure, &pose, 1);
     double off = 0, begun = 0, unequal = 0, deepest = 0, torn = 0;
     for (int k = 0; k < ROLE_COUNT; k++) {
-        int up = role_parent((Role)k);
+        int up = (int)role_parent((Role)k);
         Vec3 start = r.figure.start[k];
         double bend = turned(pose.bone[up].r, pose.bone[k].r), bend_half = turned(half.bone[up].r, half.bone[k].r);
         off = max_of(off, turned(whole.bone[k].r, pose.bone[k].r));
