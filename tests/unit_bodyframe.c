@@ -50,13 +50,13 @@ static void ask(const BodyFrame *f, int part, const Vec3 *p, Wrong *w) {
         w->unpressed += free[i] > near;
         w->far += body_frame_far(f, part, p[i], 0) && d <= 0;
         w->normal += fabs(vec_len(n) - 1) > 1e-9 || (near < FAR && vec_dist(n, m) > 1e-9);
-        w->inside += body_frame_inside(f, one, p[i]) != (near < 0);
+        w->inside += body_frame_any_inside(f, one, &p[i], 1) != (near < 0);
         any |= near < 0;
         w->asked += near < FAR;
     }
     w->any += body_frame_any_inside(f, one, p, N) != any;
     any = false;
-    for (int i = 0; i < 7; i++) any |= body_frame_inside(f, all, p[i]);
+    for (int i = 0; i < 7; i++) any |= body_frame_any_inside(f, all, &p[i], 1);
     w->any += body_frame_any_inside(f, all, p, 7) != any;
 }
 

@@ -63,7 +63,7 @@ static void after_a_move(Worn *w) {
         Vec3 to = vec_add(w->point[v], vec_scale(dice_around(), 0.02));
         if (near_clear(&near, to)) {
             clear++;
-            unclear += body_frame_inside(&w->specimen.scene.posed, ~0u, to);
+            unclear += body_frame_any_inside(&w->specimen.scene.posed, ~0u, &to, 1);
         }
         near_move(&near, to);
         for (int part = 0; part < w->specimen.scene.body.nparts; part++)

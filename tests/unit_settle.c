@@ -148,10 +148,14 @@ static void goes_back(void) {
 }
 
 /* How far the point of a hit is from its part. */
-static double hit_distance(Pushed *p, const TesterHit *hit) {
-    Vec3 x = {0, 0, 0};
-    for (int k = 0; k < hit->n; k++) x = vec_mad(x, p->worn.cloth.push.point[hit->v[k]], hit->weight[k]);
-    return body_frame_distance(&p->worn.of.scene.posed, hit->part, x, 1, NULL);
+static double hit_distance(const Pushed *p, const TesterHit *hit, Vec3 *normal) {
+    Vec3 x = tester_hit_point(hit, p->worn.cloth.push.point);
+    return body_frame_distance(&p->worn.of.scene.posed, hit->part, x, 1, normal);
+}
+
+static bool is_own(const Pushed *p, const TesterHit *hit) {
+    const Cloth *c = &p->worn.cloth;
+    return escape_is_own(&c->push.escape, &p->worn.of.scene.posed, c->sheet.place[tester_hit_vertex(hit)], hit->part);
 }
 
 static void moves_hits_off(void) {
@@ -159,20 +163,19 @@ static void moves_hits_off(void) {
     FrameStats stats = {0};
     push(&p, "trousers", 0.1);
     Cloth *c = &p.worn.cloth;
-    const BodyFrame *body = &p.worn.of.scene.posed;
-    Wrong w = attempt_test(c, body, &stats);
+    Wrong w = attempt_test(c, &p.worn.of.scene.posed, &stats);
     int early = 0, off = 0, own = 0;
     double least = INFINITY;
     bool capped = false;
     for (int k = 0; k < c->tester.nhits; k++) {
         const TesterHit *hit = &c->tester.hit[k];
-        if (!escape_is_own(&c->push.escape, body, c->sheet.place[tester_hit_vertex(hit)], hit->part)) continue;
-        double before = hit_distance(&p, hit);
+        if (!is_own(&p, hit)) continue;
+        double before = hit_distance(&p, hit, NULL);
         settle_hit(&c->settler, &c->push, hit, &capped);
-        early += hit_distance(&p, hit) != before && c->settler.nraised == 0;
+        early += hit_distance(&p, hit, NULL) != before && c->settler.nraised == 0;
         for (int i = 0; i < hit->n; i++) (void)settle_raise(&c->settler, &c->push, hit->v[i], 0.002, 0.002);
         settle_hit(&c->settler, &c->push, hit, &capped);
-        double after = hit_distance(&p, hit);
+        double after = hit_distance(&p, hit, NULL);
         own++;
         off += after > 0.4 * p.margin;
         least = min_of(least, after);
@@ -189,15 +192,14 @@ static void tells_where_hits_stay(void) {
     FrameStats stats = {0};
     push(&p, "trousers", 0.1);
     Cloth *c = &p.worn.cloth;
-    const BodyFrame *body = &p.worn.of.scene.posed;
-    (void)attempt_test(c, body, &stats);
+    (void)attempt_test(c, &p.worn.of.scene.posed, &stats);
     int hits = 0, told = 0;
     for (int k = 0; k < c->tester.nhits; k++) {
         const TesterHit *hit = &c->tester.hit[k];
-        Vec3 x = tester_hit_point(hit, c->push.point), n;
+        Vec3 n;
         bool capped = false, again = false;
-        double distance = body_frame_distance(body, hit->part, x, p.margin, &n);
-        if (!escape_is_own(&c->push.escape, body, c->sheet.place[tester_hit_vertex(hit)], hit->part)) continue;
+        double distance = hit_distance(&p, hit, &n);
+        if (!is_own(&p, hit)) continue;
         for (int i = 0; i < hit->n; i++) {
             again |= c->push.clearance[hit->v[i]] > p.margin;
             (void)settle_raise(&c->settler, &c->push, hit->v[i], 0.002, 0.002);

@@ -76,8 +76,7 @@ double body_point_unpressed(const BodyFrame *f, int part, BodyPoint *p, double f
 void body_frame_unpressed_many(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance,
                                Vec3 *normal);
 
-/* Is a world point, or any of n, inside any of `parts` (bits 1 << role)? */
-bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p);
+/* Is any of n world points inside any of `parts` (bits 1 << role)? */
 bool body_frame_any_inside(const BodyFrame *f, unsigned parts, const Vec3 *p, int n);
 
 /* The boxes over the edges or triangles of a part's skin; NULL if the skin does not touch the box `cloth`, output

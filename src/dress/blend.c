@@ -46,9 +46,7 @@ static Quat turn_of_thigh(Blender *b, Role thigh, Quat pelvis) {
 Blender blender_of(const Figure *figure, const Pose *pose) {
     Blender b = {.figure = figure, .pose = pose};
     for (int r = 0; r < ROLE_COUNT; r++) {
-        bool begins = r > 0 && role_limb((Role)r) != role_limb((Role)(r - 1));
-        int on = is_thigh((Role)r) ? ROLE_PELVIS : begins ? ROLE_CHEST : r > 0 ? r - 1 : r;
-        Quat like = r > 0 ? b.turn[on] : (Quat){1, 0, 0, 0};
+        Quat like = r > 0 ? b.turn[role_parent((Role)r)] : (Quat){1, 0, 0, 0};
         b.turn[r] = is_thigh((Role)r) ? turn_of_thigh(&b, (Role)r, like)
                                       : quat_like(quat_from_mat(pose->bone[r].r), like);
     }

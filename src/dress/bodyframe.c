@@ -91,12 +91,6 @@ void body_frame_unpressed_many(const BodyFrame *f, int part, const Vec3 *p, int 
         if (distance[i] < far) normal[i] = mat_apply(f->to_world[part], normal[i]);
 }
 
-bool body_frame_inside(const BodyFrame *f, unsigned parts, Vec3 p) {
-    for (int k = 0; k < f->body->nparts; k++)
-        if (parts & part_bit(f, k) && body_frame_distance(f, k, p, 0, NULL) < 0) return true;
-    return false;
-}
-
 /* Most points are beyond `far` even if nothing pressed on the part; the others are measured again one by one. */
 void body_frame_distances(const BodyFrame *f, int part, const Vec3 *p, int n, double far, double *distance) {
     body_frame_unpressed_many(f, part, p, n, far, distance, NULL);

@@ -150,19 +150,24 @@ static void split_by_rule(Dresser *d, const BodyFrame *body, FrameStats *stats) 
     stats->capped = found.capped;
 }
 
+/* A frame begins: nothing is known of it, and the global deformation is made. */
+static void begin(Dresser *d, const BodyFrame *body, Tie tie, FrameStats *stats) {
+    *stats = (FrameStats){.restarted = tie != TIE_GOES_ON};
+    double start = clock_seconds();
+    follow_pose(&d->follower, &body->pose, d->root);
+    stats->global_s = clock_seconds() - start;
+}
+
 /* Split, move and repeat as the paper says, then the tests that all methods undergo. */
 static void frame_to_the_letter(Dresser *d, const BodyFrame *body, Tie tie, Mesh *mesh, FrameStats *stats) {
     Literal *l = &d->literal;
-    double start = clock_seconds();
-    *stats = (FrameStats){.restarted = tie != TIE_GOES_ON};
-    follow_pose(&d->follower, &body->pose, d->root);
-    stats->global_s = clock_lap(&start);
+    begin(d, body, tie, stats);
     literal_frame(l, d->root, body, tie, d->options.split, stats);
     if (mesh) {
         *mesh = l->mesh;
         set_groups(d, l->first_of_patch, mesh);
     }
-    start = clock_seconds();
+    double start = clock_seconds();
     Wrong w = tester_test(&d->solver.cloth.tester, body, &l->mesh, NULL);
     stats->test_s += clock_seconds() - start;
     stats->pairs_all += w.count.pairs_all;
@@ -171,10 +176,7 @@ static void frame_to_the_letter(Dresser *d, const BodyFrame *body, Tie tie, Mesh
 }
 
 static Wrong deform(Dresser *d, const BodyFrame *body, double dt, Tie tie, FrameStats *stats) {
-    *stats = (FrameStats){.restarted = tie != TIE_GOES_ON};
-    double start = clock_seconds();
-    follow_pose(&d->follower, &body->pose, d->root);
-    stats->global_s = clock_seconds() - start;
+    begin(d, body, tie, stats);
     split_by_rule(d, body, stats);
     return solver_frame(&d->solver, body, d->root, dt, tie, d->options.method == METHOD_GLOBAL, stats);
 }

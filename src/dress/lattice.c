@@ -75,7 +75,7 @@ static void number_places(Lattice *l, int *corner) {
 static unsigned with_next_bones(unsigned collide) {
     unsigned next = 0;
     for (int r = 0; r + 1 < ROLE_COUNT; r++)
-        if (role_limb((Role)r) > 0 && role_limb((Role)(r + 1)) == role_limb((Role)r)) next |= (collide & 1u << r) << 1;
+        if (role_limb((Role)r) > 0 && role_parent((Role)(r + 1)) == (Role)r) next |= (collide & 1u << r) << 1;
     return collide | next;
 }
 
